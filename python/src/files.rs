@@ -22,7 +22,7 @@ pub(crate) enum Named {
 
 /// Formats by their names, and the tolerance of an export that states none, mm.
 pub(crate) fn formats(named: Option<Named>, known: &[Format]) -> Answer<(Vec<Format>, f64)> {
-    let usual = Purpose::Cad.tolerance();
+    let usual = Tolerance::MICROMETRE.mm();
     let among = |formats: &[Format]| {
         let formats = formats.iter().copied();
         formats.filter(|format| known.contains(format)).collect()
@@ -32,7 +32,7 @@ pub(crate) fn formats(named: Option<Named>, known: &[Format]) -> Answer<(Vec<For
         Some(Named::Word(word)) if word == "all" => return Ok((known.to_vec(), usual)),
         Some(Named::Word(word)) => {
             let purpose: Purpose = Word::of("formats", &word)?;
-            return Ok((among(purpose.formats()), purpose.tolerance()));
+            return Ok((among(purpose.formats()), purpose.tolerance().mm()));
         }
         Some(Named::Formats(names)) => names,
     };

@@ -1,3 +1,4 @@
+use centrode_geometry::Tolerance;
 use std::{fmt, str::FromStr};
 use thiserror::Error;
 
@@ -82,12 +83,12 @@ impl Purpose {
         }
     }
 
-    /// Tolerance for the purpose, mm: for a printer a tenth of its steps, for the others finer than any machine cuts.
+    /// Tolerance for it: a tenth of a nozzle's steps for a printer, finer than any machine cuts for the others.
     #[must_use]
-    pub fn tolerance(self) -> f64 {
+    pub fn tolerance(self) -> Tolerance {
         match self {
-            Self::Print => 0.01,
-            _ => 0.001,
+            Self::Print => Tolerance::MICROMETRE.scaled(10.0),
+            _ => Tolerance::MICROMETRE,
         }
     }
 }

@@ -13,6 +13,10 @@ pub struct Tolerance(f64);
 pub struct BadTolerance(pub f64);
 
 impl Tolerance {
+    /// One micrometre: finer than machines cut, coarser than rounding at any usual size. Ten times larger, steps show on flanks;
+    /// ten times smaller, files have twice to three times as many arcs and chords.
+    pub const MICROMETRE: Self = Self(1e-3);
+
     /// A tolerance of `mm` millimetres.
     ///
     /// # Errors

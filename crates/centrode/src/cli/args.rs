@@ -4,10 +4,11 @@ use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use crate::cli::shipped::SHIPPED;
+use crate::export::Layers;
 use crate::family::{FAMILIES, PartName};
 use crate::formats::{Format, Purpose};
 use crate::geometry::Tolerance;
-use centrode_spec::SheetSize;
+use centrode_spec::{Projection, SheetSize};
 use centrode_synthesis::optimise::Strategy;
 use clap::builder::{
     NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
@@ -110,13 +111,8 @@ pub(crate) struct Export {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
     /// Kinds of file for a receiver, instead of --format
-    #[arg(
-        long = "for",
-        value_enum,
-        value_name = "RECEIVER",
-        conflicts_with = "format"
-    )]
-    pub(crate) purpose: Option<For>,
+    #[arg(long = "for", value_parser = by_word(Purpose::NAMES, about_purpose), value_name = "RECEIVER", conflicts_with = "format")]
+    pub(crate) purpose: Option<Purpose>,
     /// Maximum distance of what is written from the exact curve, mm [default: 0.001; for print 0.01]
     #[arg(long, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) tolerance: Option<Tolerance>,
@@ -124,17 +120,17 @@ pub(crate) struct Export {
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
     /// Layers of the cutting files: contour and holes alone, or all, the rest not plotting
-    #[arg(long, value_enum, default_value_t = Layers::Cut)]
+    #[arg(long, value_parser = by_word(Layers::NAMES, about_layers), default_value = Layers::Cut.name())]
     pub(crate) layers: Layers,
     /// Parts to write files of, separated by commas: of these, or those that the design names; default: all
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
     /// Size of the drawing sheets; default: the design's, or the smallest that takes the part
-    #[arg(long, value_parser = sheet_size(), ignore_case = true, value_name = "SIZE")]
+    #[arg(long, value_parser = by_word(SheetSize::NAMES, about_size), ignore_case = true, value_name = "SIZE")]
     pub(crate) sheet: Option<SheetSize>,
     /// How views lie to each other on the drawing sheets; default: as in the design
-    #[arg(long, value_enum, value_name = "METHOD")]
-    pub(crate) projection: Option<Method>,
+    #[arg(long, value_parser = by_word(Projection::NAMES, about_projection), value_name = "METHOD")]
+    pub(crate) projection: Option<Projection>,
 }
 
 impl Export {
@@ -142,7 +138,7 @@ impl Export {
     pub(crate) fn wants(&self, file: File) -> bool {
         let among = |formats: &[Format]| file.format().is_some_and(|one| formats.contains(&one));
         match (self.purpose, &self.format[..]) {
-            (Some(purpose), _) => among(purpose.0.formats()),
+            (Some(purpose), _) => among(purpose.formats()),
             (None, []) => file == File::Json || among(&Format::USUAL),
             (None, named) => named.contains(&File::All) || named.contains(&file),
         }
@@ -156,33 +152,11 @@ impl Export {
     }
 
     /// Tolerance as given, or else as the receiver needs it.
-    pub(crate) fn tolerance(&self) -> Result<Tolerance, String> {
-        let needed = self.purpose.unwrap_or(For(Purpose::Laser)).0.tolerance();
-        let usual = || Tolerance::new(needed).map_err(|error| error.to_string());
-        self.tolerance.map_or_else(usual, Ok)
-    }
-}
-
-/// Receiver of the files.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct For(pub(crate) Purpose);
-
-impl ValueEnum for For {
-    fn value_variants<'a>() -> &'a [Self] {
-        const {
-            &[
-                Self(Purpose::Laser),
-                Self(Purpose::Print),
-                Self(Purpose::Cad),
-                Self(Purpose::Drawing),
-                Self(Purpose::Simulation),
-            ]
-        }
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let formats: Vec<&str> = self.0.formats().iter().map(|one| one.name()).collect();
-        Some(PossibleValue::new(self.0.name()).help(formats.join(", ")))
+    pub(crate) fn tolerance(&self) -> Tolerance {
+        let needed = self
+            .purpose
+            .map_or(Tolerance::MICROMETRE, Purpose::tolerance);
+        self.tolerance.unwrap_or(needed)
     }
 }
 
@@ -219,19 +193,7 @@ pub(crate) enum File {
 impl File {
     /// The format of a kind of file; `None` if the kind is not a format.
     fn format(self) -> Option<Format> {
-        Some(match self {
-            Self::Dxf => Format::Dxf,
-            Self::Svg => Format::Svg,
-            Self::Sheet => Format::Sheet,
-            Self::Pdf => Format::Pdf,
-            Self::Stl => Format::Stl,
-            Self::Step => Format::Step,
-            Self::ThreeMf => Format::ThreeMf,
-            Self::Csv => Format::Csv,
-            Self::Urdf => Format::Urdf,
-            Self::Mjcf => Format::Mjcf,
-            Self::Json | Self::All => return None,
-        })
+        Format::named(self.to_possible_value()?.get_name())
     }
 }
 
@@ -265,23 +227,46 @@ impl TypedValueParser for PartWord {
     }
 }
 
-/// The sizes of sheets, ISO 5457, by their names.
-fn sheet_size() -> impl TypedValueParser<Value = SheetSize> {
-    let named = SheetSize::ALL.map(|size| {
-        let [across, up] = size.size();
-        PossibleValue::new(size.name()).help(format!("{across} x {up} mm"))
-    });
-    let size = |word: String| SheetSize::named(&word.to_uppercase());
-    PossibleValuesParser::new(named).try_map(move |word| size(word).ok_or("no size of sheet"))
+/// Parser of a value by its word, with a line of help for each.
+fn by_word<T: Copy + Send + Sync + 'static, const N: usize>(
+    named: [(&'static str, T); N],
+    about: impl Fn(T) -> String,
+) -> impl TypedValueParser<Value = T> {
+    let values = named.map(|(word, one)| PossibleValue::new(word).help(about(one)));
+    PossibleValuesParser::new(values).try_map(move |word| {
+        let found = named
+            .iter()
+            .find(|(own, _)| own.eq_ignore_ascii_case(&word));
+        found.map(|(_, one)| *one).ok_or("no such word")
+    })
 }
 
-/// A method of projection, ISO 5456-2.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
-pub(crate) enum Method {
-    /// First-angle projection, ISO 5456-2
-    FirstAngle,
-    /// Third-angle projection, ISO 5456-2
-    ThirdAngle,
+/// Width and height of a sheet, ISO 5457.
+fn about_size(size: SheetSize) -> String {
+    let [across, up] = size.size();
+    format!("{across} x {up} mm")
+}
+
+fn about_projection(projection: Projection) -> String {
+    let angle = match projection {
+        Projection::FirstAngle => "First",
+        Projection::ThirdAngle => "Third",
+    };
+    format!("{angle}-angle projection, ISO 5456-2")
+}
+
+fn about_layers(layers: Layers) -> String {
+    match layers {
+        Layers::Cut => "Contour and holes",
+        Layers::All => "Pitch curve, tip and root curves and centre lines too",
+    }
+    .to_owned()
+}
+
+/// Formats for a receiver of files.
+fn about_purpose(purpose: Purpose) -> String {
+    let formats: Vec<&str> = purpose.formats().iter().map(|one| one.name()).collect();
+    formats.join(", ")
 }
 
 /// A flavour of DXF.
@@ -295,15 +280,6 @@ pub(crate) enum Dxf {
     Spline,
     /// Release 2010, straight lines within the tolerance, for programs that do not read arcs in polylines
     Chords,
-}
-
-/// Layers of a cutting file.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
-pub(crate) enum Layers {
-    /// Contour and holes
-    Cut,
-    /// Pitch curve, tip and root curves and centre lines too
-    All,
 }
 
 pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {

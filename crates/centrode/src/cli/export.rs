@@ -1,15 +1,14 @@
 use crate::analysis::Report;
-use crate::cli::args::{self, Dxf, Export, File, Method};
+use crate::cli::args::{Dxf, Export, File};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, output, report, sheet};
 use crate::export::{ExportError, Layers, Options, SheetOptions};
 use crate::family::{Family, Mechanism, PartName};
-use crate::formats::{Bundle, Format, Purpose, dxf};
+use crate::formats::{Bundle, Format, dxf};
 use crate::geometry::Tolerance;
 use crate::page::words::summary;
-use centrode_spec::Projection;
 use std::io::Write;
 
 /// Resolves a design, checks it and writes its files.
@@ -55,10 +54,7 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
 
 /// Parts of a design whose files can be requested alone: name and description of each.
 pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
-    let Ok(tolerance) = Tolerance::new(Purpose::Cad.tolerance()) else {
-        return Vec::new();
-    };
-    let mut options = Options::new(tolerance);
+    let mut options = Options::new(Tolerance::MICROMETRE);
     // For an unknown part the exporter makes no file and lists the known parts.
     options.parts = Some(vec![String::new()]);
     let Err(ExportError::UnknownPart { known, .. }) = mechanism.files(&Format::ALL, &options)
@@ -90,7 +86,7 @@ fn bundle(
         let message = format!("{noun} has no part named {lost}; there are {known}");
         return Err(Failure::Usage(message));
     }
-    let (formats, options) = (command.formats(), options(command, found)?);
+    let (formats, options) = (command.formats(), options(command, found));
     let mut bundle = mechanism.files(&formats, &options)?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(found)?.into_bytes())?;
@@ -137,7 +133,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
         return refused("--projection", "the formats sheet and pdf");
     }
     let cut = command.wants(File::Dxf) || command.wants(File::Svg);
-    if command.layers == args::Layers::All && !cut {
+    if command.layers == Layers::All && !cut {
         return refused("--layers", "the formats dxf and svg");
     }
     let drawn = [File::Dxf, File::Svg, File::Sheet, File::Pdf];
@@ -156,27 +152,22 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     Ok(())
 }
 
-fn options(command: &Export, found: &Report) -> Result<Options, Failure> {
-    let mut options = Options::new(command.tolerance().map_err(Failure::Usage)?);
+fn options(command: &Export, found: &Report) -> Options {
+    let mut options = Options::new(command.tolerance());
     match command.dxf {
         Dxf::R2010 => {}
         Dxf::R12 => options.dxf_version = dxf::Version::R12,
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
         Dxf::Chords => options.dxf_curves = dxf::Curves::Chords,
     }
-    if command.layers == args::Layers::All {
-        options.layers = Layers::All;
-    }
+    options.layers = command.layers;
     if !command.part.is_empty() {
         options.parts = Some(command.part.clone());
     }
     options.sheet = SheetOptions {
         size: command.sheet,
-        projection: command.projection.map(|method| match method {
-            Method::FirstAngle => Projection::FirstAngle,
-            Method::ThirdAngle => Projection::ThirdAngle,
-        }),
+        projection: command.projection,
         found: crate::sheet_data(found),
     };
-    Ok(options)
+    options
 }

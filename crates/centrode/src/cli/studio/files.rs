@@ -19,7 +19,7 @@ const PAGE: &str = "report";
 pub(super) fn purposes() -> Vec<(&'static str, Vec<&'static str>, f64)> {
     let of = |purpose: Purpose| {
         let formats = purpose.formats().iter().map(|format| format.name());
-        (purpose.name(), formats.collect(), purpose.tolerance())
+        (purpose.name(), formats.collect(), purpose.tolerance().mm())
     };
     Purpose::ALL.map(of).to_vec()
 }

@@ -4,14 +4,12 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::routes::{Refused, Text, computed};
-use crate::formats::Purpose;
 use crate::geometry::Tolerance;
 use crate::page;
 
 /// Meshes of a design as `export` writes them by default, and their poses at the picture's inputs.
 pub(crate) async fn answer(Json(ask): Json<Text>) -> Result<Response, Refused> {
-    let tolerance = || Tolerance::new(Purpose::Cad.tolerance()).map_err(|error| error.to_string());
-    let made = computed(move || page::meshes(&ask.text, tolerance()?)).await?;
+    let made = computed(move || page::meshes(&ask.text, Tolerance::MICROMETRE)).await?;
     let bytes =
         made.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     let kind = [(header::CONTENT_TYPE, "application/octet-stream")];
