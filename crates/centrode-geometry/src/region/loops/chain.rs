@@ -17,9 +17,10 @@ use crate::{
 /// time; with too few, a missed crossing may go unnoticed.
 const COUNTED: usize = 16;
 
-/// Size of a loop, in tolerances, below which it may remain if its crossings contradict others. Ten times larger leaves
-/// visible loops; ten times smaller refuses contours because of rounding.
-const SMALL_LOOP: f64 = 1e3;
+/// Sizes of a loop, in tolerances, below which it may remain if its crossings contradict others, tried in this order: small
+/// loops of rounding are dropped before real ones. A last size ten times larger leaves visible loops; ten times smaller
+/// refuses contours because of rounding.
+const SMALL_LOOPS: [f64; 3] = [10.0, 1e2, 1e3];
 
 /// One of the two passages of the chain through a crossing.
 #[derive(Clone, Copy, Debug)]
@@ -120,13 +121,16 @@ impl<'a> Chain<'a> {
     /// All passages through crossings.
     ///
     /// If a curve turns back within rounding, crossings in a very small loop may contradict each other. Then they are
-    /// dropped.
+    /// dropped, those of the smallest loops first.
     pub(crate) fn passages(&self) -> Result<Passages, LoopError> {
         let mut all = self.found()?;
         let mut others = partners(&all);
         let mut left = self.left(&all, &others);
-        if let Err(LoopError::Inconsistent { .. }) = left {
-            all = self.without_small_loops(&all, &others);
+        for size in SMALL_LOOPS {
+            if !matches!(left, Err(LoopError::Inconsistent { .. })) {
+                break;
+            }
+            all = self.without_loops_below(size * self.tolerance.mm(), &all, &others);
             others = partners(&all);
             left = self.left(&all, &others);
         }
@@ -134,9 +138,13 @@ impl<'a> Chain<'a> {
         Ok(Passages { all, others, left })
     }
 
-    /// The passages, except those from which the chain returns to their crossing within a very small loop.
-    fn without_small_loops(&self, passages: &[Passage], others: &[usize]) -> Vec<Passage> {
-        let size = SMALL_LOOP * self.tolerance.mm();
+    /// The passages, except those from which the chain returns to their crossing within `size`, mm.
+    fn without_loops_below(
+        &self,
+        size: f64,
+        passages: &[Passage],
+        others: &[usize],
+    ) -> Vec<Passage> {
         let pairs = passages.iter().zip(others);
         pairs
             .filter(|&(passage, &other)| {
