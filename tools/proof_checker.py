@@ -150,7 +150,7 @@ def check(number):
     boxes = 0
     # That which takes least first.
     claims = (
-        (Box.is_held_on, "the driven gear pushed on is not shown to be held"),
+        (Box.is_held_on, "the driven gear pushed forward is not shown to be held"),
         (Box.is_held_back, "the driven gear pushed back is not shown to be held"),
         (Box.is_free, "the gears are not shown to be apart"),
     )
@@ -230,7 +230,7 @@ def run(path, design, workers, tells):
     cycle = "one turn" if turns == 1 else f"{turns} turns"
     print(f"proved: the contours in the file hold each other at every angle of {cycle} of the driver,")
     print("and keep apart within their backlash; errors are relative to the law in the file")
-    for name, (least, greatest) in zip(("error pushed on", "error pushed back", "backlash"), ranges, strict=True):
+    for name, (least, greatest) in zip(("error pushed forward", "error pushed back", "backlash"), ranges, strict=True):
         print(f"{name}: {least:.4e} to {greatest:.4e} rad")
     print(f"each error at every angle within {width:.1e} rad; {count} stretches, {sum(n for n, _ in found)} boxes")
 

@@ -38,7 +38,7 @@ class Contact:
     fillet_clearance: NDArray[float64]
     """Minimum distance of anything from a fillet, mm; infinite where nothing is near."""
     sliding: NDArray[float64]
-    """Maximum sliding speed of the teeth in contact per driver speed, pushed on, mm/rad."""
+    """Maximum sliding speed of the teeth in contact per driver speed, pushed forward, mm/rad."""
 
     def __len__(self) -> int:
         """Give the number of inputs."""

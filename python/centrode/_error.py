@@ -58,8 +58,8 @@ class LinkageError(DesignError):
     ...     ct.SixBar(crank=77, coupler=147, rocker=127, frame=45, pivot=(100, 67), effector_length=200)
     ... except ct.LinkageError as error:
     ...     print(error)
-    the four-bar must be a crank-rocker, but it is a double crank: the crank must be the shortest, and shortest \
-and longest together must stay below the two others (here by 12 mm)
+    the four-bar must be a crank-rocker, but it is a double crank: the crank must be the shortest link, \
+and Grashof's margin must be above 0: it is 12 mm (the two other lengths minus shortest and longest)
     """
 
 

@@ -60,7 +60,7 @@ def test_a_design_reads_back_and_bad_ones_say_where(feeder, tmp_path):
     path = tmp_path / "feeder.toml"
     path.write_text(ct.template("feeder"))
     assert ct.load(path) == feeder
-    with pytest.raises(ct.DesignError, match="nothing is left to dwell"):
+    with pytest.raises(ct.DesignError, match="leaves no dwell"):
         ct.Feeder.from_toml(ct.template("feeder").replace("driver_pitches = 40", "driver_pitches = 30"))
 
 

@@ -99,7 +99,7 @@ def test_a_tolerance_must_be_a_positive_length_no_finer_than_the_outline(pair, m
 
 @pytest.mark.parametrize("width", [0, -1, math.nan])
 def test_a_solid_must_have_a_width(pair, width):
-    with pytest.raises(ct.DesignError, match="higher"):
+    with pytest.raises(ct.DesignError, match="above its bottom"):
         pair.driver.mesh(width=width)
 
 

@@ -129,7 +129,7 @@ def test_a_table_of_angles_that_turns_on_is_read_as_it_is_written():
     np.testing.assert_allclose(turning.body("wheel", PHI)[:, 2], PHI, atol=1e-12)
     (table,) = [t for t in turning.check().tables if t.name == "table-readings"]
     np.testing.assert_allclose(table.rows["wheel"], [2 * math.pi, math.pi / 4, math.pi / 4], atol=1e-12)
-    with pytest.raises(ct.DesignError, match="turns = 1 turns on, with a last step of 160 deg, turns = 0 swings back"):
+    with pytest.raises(ct.DesignError, match="turns = 1 the body turns on, in a last step of 160 deg; with turns = 0 the body swings back"):
         wheel("table_deg = [0, 40, 80, 120, 160, 200]")
     for turns in [-1, 0, 1, 2]:
         given = wheel(f"table_deg = [0, 40, 80, 120, 160, 200], turns = {turns}")

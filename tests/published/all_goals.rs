@@ -131,7 +131,7 @@ fn table() -> String {
             both(&|_, r| r.values["arm_seedling_clearance"]),
         ),
         (
-            "gearbox above the ground, mm",
+            "height of gearbox above ground, mm",
             both(&|_, r| goal(r, "gearbox-clearance")),
         ),
         (
@@ -151,7 +151,7 @@ fn table() -> String {
             both(&|_, r| r.values["planting_speed"]),
         ),
         (
-            "flanks unsound at full height",
+            "undercut or short full-height flanks",
             both(&|_, r| goal(r, "sound-teeth")),
         ),
     ];

@@ -165,7 +165,7 @@ FEEDER = [
         lambda: [least_transmission(best_in_bounds()), *best_in_bounds()],
     ),
     Said("go together: by {} %.", lambda: 100 * values("feeder-2022")["minimum_widening"]),
-    Said("reach more than {} deg", lambda: least_transmission(best_in_bounds())),
+    Said("found within the bounds is {} deg", lambda: least_transmission(best_in_bounds())),
     Said(
         "| deg | {} | {} | {} | {} | {} | {} |",
         lambda: sensitivity(design("feeder-2022").six_bar.lengths, design("feeder-2022").six_bar.pivot),

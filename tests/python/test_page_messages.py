@@ -19,12 +19,12 @@ def give(page, key, value):
 def test_a_goal_has_one_number_in_list_finding_and_command(arms):
     page, copy = arms
     heads = page.locator(".goal .head > span:first-child").all_text_contents()
-    assert heads[-1] == "9. flanks unsound at full height goal 8 of the paper"
+    assert heads[-1] == "9. undercut or short full-height flanks goal 8 of the paper"
     assert [head.split(".")[0] for head in heads] == [str(number + 1) for number in range(9)]
-    expect(page.locator(".findings")).to_contain_text("goal 9, flanks unsound at full height")
+    expect(page.locator(".findings")).to_contain_text("goal 9, undercut or short full-height flanks")
     told = centrode("check", copy, check=False).stdout
-    assert "goal 9, flanks unsound at full height" in told
-    assert re.search(r"^ +9 flanks unsound .*; goal 8 of the paper$", told, re.M)
+    assert "goal 9, undercut or short full-height flanks" in told
+    assert re.search(r"^ +9 undercut or short full-height flanks .*; goal 8 of the paper$", told, re.M)
     assert [row.split()[0] for row in re.findall(r"^  +\d .*\[.*$", told, re.M)] == [
         str(number + 1) for number in range(9)
     ]
@@ -83,7 +83,7 @@ def test_a_bore_that_does_not_fit_is_a_finding_and_the_motion_goes_on(browser, t
         settled(page)
         expect(page.locator("#findings h2")).to_have_text("✕ Cannot be made")
         expect(page.locator("#findings li").first).to_contain_text(
-            "bore reaches 52.3597 mm from the axis, but its teeth leave only 21.5 mm"
+            "bore of the driver reaches 52.3597 mm from the axis, but the minimum radius of its outline is 21.5 mm"
         )
         expect(page.locator("#findings li").first).to_contain_text("what is shown is without driver.bore")
         expect(page.locator('[id="remark-driver.bore"]')).to_contain_text("52.3597 mm")
@@ -142,7 +142,7 @@ def test_what_a_search_counts_as_missed_is_named_with_start_and_bounds(browser, 
         page.locator("#search-method").select_option("de")
         page.locator("#search-evaluations").fill("300")
         page.locator("#search-evaluations").press("Enter")
-        row = page.locator(".missed tbody tr").filter(has_text="flanks unsound at full height")
+        row = page.locator(".missed tbody tr").filter(has_text="undercut or short full-height flanks")
         expect(row.locator("td").first).to_have_text("31", timeout=60_000)
         expect(row.locator("td").last).to_have_text("at most 0")
         # Constraints that are no goals of the list are named, too, with their units.

@@ -304,9 +304,9 @@ def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_
     assert done.returncode == 2
     assert not (tmp_path / "x.proof").exists()
     told = re.search(
-        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm "
+        r"angle (\S+) rad driver tooth 22 hits driven tooth 21 at \((\S+), (\S+)\) mm "
         r"within the backlash, "
-        r"(\S+) rad from where the driven gear stands pushed on",
+        r"(\S+) rad from the contact position of the driven gear pushed forward",
         done.stderr,
     )
     phi, x, y, turn = map(float, told.groups())

@@ -173,7 +173,7 @@ class Box:
         return [ranges] if ranges else []
 
     def is_held_on(self):
-        """Claim 2: whether the contours meet within the width of the seat pushed on."""
+        """Claim 2: whether the contours meet within the width of the seat pushed forward."""
         return self.is_held(0)
 
     def is_held_back(self):

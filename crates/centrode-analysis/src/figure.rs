@@ -60,7 +60,7 @@ impl JsonSchema for JsonNumber {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "A number, or a word for one that JSON does not have.",
+            "description": "A number; infinities and NaN are strings, because JSON has no numbers for them.",
             "anyOf": [
                 { "type": "number" },
                 { "enum": ["Infinity", "-Infinity", "NaN"] },

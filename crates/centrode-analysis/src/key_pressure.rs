@@ -45,7 +45,7 @@ impl LoadedKey<'_> {
         let (name, part) = (self.key.name(), self.part);
         let Extreme { input, value } = self.torque;
         let message = format!(
-            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft allow {allowed:.1} N/mm²"
+            "the pressure on {name} in the {part} is {pressure:.1} N/mm² at {value:.0} N·mm: hub and shaft allow {allowed:.1} N/mm²"
         );
         Finding::new("key-pressure", Severity::Error, message)
             .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)

@@ -26,7 +26,9 @@ pub enum BaseTangentFault {
     #[error("undercut leaves no flank to measure")]
     NoFlank,
     /// The flanks are too short.
-    #[error("no number of teeth has both contacts on the flanks: measure over pins")]
+    #[error(
+        "the flanks are too short for a base tangent over any number of teeth: measure over pins"
+    )]
     NoCount,
 }
 

@@ -38,7 +38,7 @@ pub enum PinFault {
     #[error("the pin is too large for this space: it rests on the tips of the teeth")]
     TooLarge,
     /// Another part of the gear blocks the pin before it touches both flanks.
-    #[error("the pin does not get to the flanks of this space: another tooth blocks it")]
+    #[error("the pin cannot reach the flanks of this space: another part of the gear blocks it")]
     Blocked,
     /// There is no space: a tooth next to it has been cut off or has no flank.
     #[error("a tooth next to this space has no flank")]

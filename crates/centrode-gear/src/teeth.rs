@@ -72,7 +72,7 @@ pub enum TeethError {
         maximum: f64,
     },
     /// The tool comes to a point before it is as deep as it must cut.
-    #[error("the tool comes to a point {short:.6} mm before it reaches the required depth: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
+    #[error("the tool comes to a point {short:.6} mm before it reaches the required depth: a space {space:.6} mm wide on the {} must be cut {depth:.6} mm deep", .member.name())]
     NoTip {
         /// Gear of the space.
         member: Member,
@@ -84,7 +84,7 @@ pub enum TeethError {
         short: f64,
     },
     /// A tooth or a space is left with no width.
-    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the backlash takes {backlash} mm of it", .member.name())]
+    #[error("a tooth of the {} would be {width} mm wide on a pitch of {pitch} mm, which leaves no tooth or no space; the backlash takes {backlash} mm of the width", .member.name())]
     NoWidth {
         /// Gear at fault.
         member: Member,
@@ -97,7 +97,7 @@ pub enum TeethError {
     },
     /// Both gears cannot be the same part.
     #[error(
-        "phase \"congruent\" needs two pitch curves that are the same; these differ by {difference:e} mm in radius"
+        "phase \"congruent\" needs two equal pitch curves; these differ by {difference:e} mm in radius"
     )]
     NotCongruent {
         /// Maximum difference of radius, mm.

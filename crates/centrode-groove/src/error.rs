@@ -15,7 +15,7 @@ pub enum ShaftError {
     Speed(#[from] PitchError),
     /// The slider would stop or run back on a stroke.
     #[error(
-        "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider moves in one direction only below {limit:.6} mm"
+        "amplitude is {amplitude} mm, but must be below {limit:.6} mm for the harmonic {harmonic} and a lead of {lead} mm: otherwise the slider stops or runs back"
     )]
     Amplitude {
         /// Amplitude, mm.
@@ -39,7 +39,7 @@ pub enum ShaftError {
     },
     /// A distance that no amplitude gives.
     #[error(
-        "moved_distance must lie between {minimum:.6} mm, where the slider stops, and {maximum:.6} mm, where its speed is constant, not {required}"
+        "moved_distance must be between {minimum:.6} mm, where the slider stops, and {maximum:.6} mm, where its speed is constant, not {required} mm"
     )]
     MovedDistance {
         /// Required distance, mm.
@@ -51,7 +51,7 @@ pub enum ShaftError {
     },
     /// A window that holds whole waves, over which no amplitude changes the distance.
     #[error(
-        "window_deg is {window_deg}, whole waves of the harmonic {harmonic}: every amplitude moves the slider by the same distance over it"
+        "window_deg is {window_deg} deg, a whole number of waves of the harmonic {harmonic}: the distance over it does not depend on the amplitude"
     )]
     Window {
         /// Width of the window, deg.
@@ -61,19 +61,19 @@ pub enum ShaftError {
     },
     /// Reversals after which the groove does not meet its own start.
     #[error(
-        "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
+        "the reversal must take a whole number of half turns, so that the groove closes on the shaft; it is {0} deg"
     )]
     ReversalAngle(f64),
     /// A law that does not change the speed smoothly and symmetrically from one direction to the other.
     #[error(
-        "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be equal"
+        "the law {law} does not reverse the slider: its acceleration must be zero at both ends, and its two halves must be equal"
     )]
     ReversalLaw {
         /// Name of the law.
         law: &'static str,
     },
     /// A slider that reverses more than once in a reversal.
-    #[error("the slider turns round {0} times in one reversal: take a larger reversal angle")]
+    #[error("the slider changes direction {0} times in one reversal: use a larger reversal angle")]
     TurnsRound(usize),
     /// A groove that leaves no land between neighbouring turns.
     #[error(
@@ -86,7 +86,9 @@ pub enum ShaftError {
         room: f64,
     },
     /// A groove as deep as the shaft is thick.
-    #[error("the groove is {depth} mm deep, which at a radius of {radius} mm reaches {limit}")]
+    #[error(
+        "the groove is {depth} mm deep and reaches {limit} of the shaft, whose radius is {radius} mm"
+    )]
     GrooveDepth {
         /// Depth, mm.
         depth: f64,
@@ -97,7 +99,7 @@ pub enum ShaftError {
     },
     /// A bend that a slider of the groove's width cannot follow.
     #[error(
-        "the groove bends with a radius of {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider cuts or follows it; take a larger reversal angle"
+        "the bend radius of the groove is {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider can follow it; use a larger reversal angle"
     )]
     Bend {
         /// Minimum radius of curvature on the development, mm.
@@ -109,7 +111,7 @@ pub enum ShaftError {
     },
     /// A groove whose edges smooth surfaces cannot follow.
     #[error(
-        "the groove's edges bend too wildly for smooth surfaces between {0} lines round the shaft"
+        "the edges of the groove change direction too fast: {0} lines round the shaft are not enough for smooth surfaces"
     )]
     Boundary(u32),
     /// An error inside a table of a larger design.

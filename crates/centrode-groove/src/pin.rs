@@ -19,7 +19,7 @@ impl SpiralShaft {
         let bar = Bar::new(fit, [0.0, length]);
         let mut pin = bar.turned("pin", "Pin of the slider", stock, "");
         let inside = thousandths(slider.reach);
-        pin.part.notes = vec![format!("{inside} mm of it in the slider.")];
+        pin.part.notes = vec![format!("{inside} mm of its length is in the slider.")];
         pin.pieces = vec![TurnedPiece {
             link: link.into(),
             at: [self.groove().radius() - slider.reach, 0.0, 0.0],

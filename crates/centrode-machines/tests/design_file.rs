@@ -178,7 +178,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "module = 2.25",
             "module = 2.25\ndiametral_pitch = 12",
-            "line 9, column 1: pitch.diametral_pitch does not go with module: give one of them",
+            "line 9, column 1: pitch.diametral_pitch cannot be given together with module: give one of them",
         ),
         (
             "module = 2.25",
@@ -545,7 +545,7 @@ fn pitch_curve_faults_name_their_line() {
         ),
         (
             "kind = \"polar\"\nexpression = \"10/(phi - phi)\"",
-            "line 5, column 1: pitch.expression has the value",
+            "line 5, column 1: pitch.expression or one of its derivatives",
         ),
         (
             "kind = \"polar\"\nradius = [1, 2, 3, nan, 5, 6]",
@@ -557,7 +557,7 @@ fn pitch_curve_faults_name_their_line() {
         ),
         (
             "kind = \"polar\"\nradius = [9, 9, 9, 9, 9, 9]\nmean = 2",
-            "line 5, column 1: pitch.radius does not go",
+            "line 5, column 1: pitch.radius cannot be given together",
         ),
         (
             "kind = \"polar\"",
@@ -589,11 +589,11 @@ fn pitch_curve_faults_name_their_line() {
         ),
         (
             "kind = \"ratio\"\nexpression = \"0.7123\"\ncenter_distance = 40",
-            "line 5, column 1: pitch.expression: one driver turn makes 0.7123",
+            "line 5, column 1: pitch.expression: one driver turn gives 0.7123",
         ),
         (
             "kind = \"ratio\"\nexpression = \"0.5\"\ncenter_distance = 40",
-            "line 1, column 1: mean_ratio is 1:1 but",
+            "line 1, column 1: mean_ratio is 1:1, but",
         ),
     ] {
         let text = format!("{head}{pitch}\n");

@@ -47,7 +47,7 @@ use crate::word::Word;
 /// >>> report = ct.MovingBox(moved_distance=2.05).check()
 /// >>> table = report.tables[0]
 /// >>> [(name, round(row[0], 4)) for name, row in table.rows.items()]
-/// [('plain shaft', 3.3333), ('the groove alone', 3.3333), ('the gears alone', 2.05), ('as designed', 2.05)]
+/// [('plain shaft', 3.3333), ('groove only', 3.3333), ('gears only', 2.05), ('as designed', 2.05)]
 #[pyclass(frozen, extends = BoxDrive, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct MovingBox(Arc<mechanism::MovingBox>);

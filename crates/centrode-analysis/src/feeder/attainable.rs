@@ -78,12 +78,12 @@ impl fmt::Display for Attainable {
         let Some(widening) = self.widening else {
             return write!(
                 out,
-                "within the bounds up to {best:.4} deg can be had, at {at} mm"
+                "the maximum found within the bounds is {best:.4} deg, at {at} mm"
             );
         };
         write!(
             out,
-            "no lengths within the bounds reach more than {best:.3} deg (at {at} mm): the bounds contradict the goal, and must be widened by {:.3} % to hold both (then {} mm)",
+            "the maximum found within the bounds is {best:.3} deg (at {at} mm), so the bounds contradict the goal: widen them by {:.3} % to meet both (then {} mm)",
             100.0 * widening,
             words(self.widened_lengths)
         )

@@ -71,7 +71,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         report.values.insert("gear_pin_clearance_min", clearance);
         if clearance < 0.0 {
             let message = format!(
-                "a pin of diameter {size} mm {class} at its upper limit overlaps its cam by {:.4} mm",
+                "a pin of diameter {size} mm {class} at its upper limit of size overlaps its cam by {:.4} mm",
                 -clearance
             );
             let severity = Severity::of_overlap(-clearance);
@@ -99,16 +99,14 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let allowed = LOOSE * requested + 1e-4;
     if exceeds(loose.value, allowed) {
         let message = format!(
-            "the intermittent gears leave the crank free by {:.3} deg",
+            "the intermittent gears leave the crank {:.3} deg of backlash",
             loose.value.to_degrees()
         );
         report.findings.push(
             about("gears-loose", Severity::Warning, message)
                 .measured(loose.value, allowed, Unit::Angle)
                 .at(loose.input)
-                .remedy(
-                    "an entry angle, for which cams are made, or pins nearer the line of centres",
-                ),
+                .remedy("an entry angle (adds cams), or pins nearer to the line of centres"),
         );
     }
 }

@@ -34,7 +34,7 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         minimum(
             2,
             "crank-rocker",
-            "crank turns: Grashof's margin",
+            "Grashof's margin (crank turns)",
             bar.grashof_margin(),
             0.0,
             Unit::Millimetre,
@@ -68,7 +68,7 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         minimum(
             5,
             "quick-return",
-            "crank turns for the feed stroke",
+            "crank angle of the feed stroke",
             six_bar.extremes().longer_stroke(),
             TAU * quick_return / (1.0 + quick_return),
             Unit::Angle,
@@ -77,7 +77,7 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         minimum(
             6,
             "feed-rate",
-            "cuttings a minute",
+            "cuttings per minute",
             feeder.feed_rate(),
             feed_rate,
             Unit::PerMinute,
@@ -86,7 +86,7 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         minimum(
             7,
             "dwell",
-            "effector rests while it is filled",
+            "rest of the effector for filling",
             feeder.dwell_time(),
             pushing_time,
             Unit::Second,
@@ -115,7 +115,7 @@ pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
 /// Text on the limit that the bounds set to the transmission angle.
 fn attainable(feeder: &Feeder, report: &mut Report) -> String {
     let Some(found) = Attainable::search(feeder.design()) else {
-        return "; no crank-rocker that would do was found".into();
+        return "; no suitable crank-rocker was found within the bounds".into();
     };
     let values = &mut report.values;
     values.insert("attainable_transmission_angle", found.transmission_angle);
@@ -128,7 +128,7 @@ fn attainable(feeder: &Feeder, report: &mut Report) -> String {
 fn remedy(goal: &str) -> Option<&'static str> {
     Some(match goal {
         "swing" => "other lengths, or the pivot on the chord between the slider's dead centres",
-        "transmission-angle" => "a shorter crank against the other lengths",
+        "transmission-angle" => "a crank that is shorter relative to the other links",
         "feed-rate" => "a faster motor, or more slots",
         "dwell" => "more pitches round the driver, or a smaller entry angle",
         _ => return None,

@@ -115,7 +115,7 @@ fn linkage(feeder: &Feeder, report: &mut Report) {
     ];
     report.tables.push(Table {
         name: "sensitivities",
-        title: "Change of the swing by a millimetre of",
+        title: "Change of the swing per millimetre of",
         unit: Unit::Angle,
         columns: vec!["swing".into()],
         rows: rows.map(|(name, by)| (name.into(), vec![by])).into(),
@@ -174,7 +174,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     let miss = (spread.maximum - goals.swing).max(goals.swing - spread.minimum);
     if exceeds(miss, goals.swing_tolerance) {
         let message = format!(
-            "lengths made to +-{} mm and a pivot set to +-{} mm let the swing miss by up to {:.3} deg",
+            "with tolerances of +-{} mm on the lengths and +-{} mm on the pivot the swing misses its goal by up to {:.3} deg",
             making.length_tolerance,
             making.pivot_tolerance,
             miss.to_degrees()
@@ -197,7 +197,7 @@ fn vacuous(feeder: &Feeder, report: &mut Report) {
         return;
     }
     let message = format!(
-        "the effector's pivot lies {distance:.4} mm from the chord between the slider's dead centres: there lengths of any size swing it by half a turn, so a search must not move the pivot with them"
+        "the effector's pivot lies {distance:.4} mm from the chord between the slider's dead centres: with the pivot on this chord, lengths of any size give a swing of 180 deg. Keep the pivot fixed in a search"
     );
     report.findings.push(
         Finding::new("pivot-on-chord", Severity::Note, message).measured(

@@ -23,7 +23,7 @@ pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
                 "effector-meets-shaft",
                 Severity::Error,
                 format!(
-                    "the effector runs into the rocker's shaft, which passes it: {:.4} mm too near",
+                    "the effector collides with the rocker's shaft: they overlap by {:.4} mm",
                     -value
                 ),
             )

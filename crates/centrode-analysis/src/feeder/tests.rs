@@ -76,7 +76,7 @@ fn bounds_that_allow_the_angle_need_no_widening() {
     assert!(
         report.findings[0]
             .message
-            .contains("within the bounds up to 12.31")
+            .contains("the maximum found within the bounds is 12.31")
     );
 }
 

@@ -106,7 +106,7 @@ pub enum ForcesError {
     },
     /// More than one part holds a link: how these parts share its load depends on their stiffness.
     #[error(
-        "{link} is held in its motion by more than one of {holders}: how they share the load is not determined"
+        "{link} is driven by both {holders}: how they share the load is statically indeterminate"
     )]
     Undetermined {
         /// Name of the link.
@@ -115,7 +115,7 @@ pub enum ForcesError {
         holders: String,
     },
     /// A mesh, closure, contact or leader does not reach the joint that it moves, or two joints lead each other.
-    #[error("{holder} cannot move {link}: no chain of joints leads from the one to the other")]
+    #[error("{holder} cannot move {link}: no chain of joints connects them")]
     Apart {
         /// Name of the mesh, closure, contact or leader.
         holder: String,

@@ -207,7 +207,7 @@ fn steps(
         };
         if block.len() > 1 || follower.leader == follower.joint {
             return Err(ForcesError::Apart {
-                holder: format!("the lead of {}", machine.joint_name(follower.leader)),
+                holder: format!("the leading joint {}", machine.joint_name(follower.leader)),
                 link: machine.links[machine.joints[follower.joint].child]
                     .name
                     .clone(),

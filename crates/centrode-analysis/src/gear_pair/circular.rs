@@ -29,7 +29,7 @@ const SHIFTS: [(f64, &str); 16] = values!("driver.shift", "":
 
 /// Equal profile shifts of both gears that are tried: the centre distance follows.
 #[rustfmt::skip]
-const BOTH: [(f64, &str); 8] = values!("driver.shift = driven.shift", ", with the centre distance that follows":
+const BOTH: [(f64, &str); 8] = values!("driver.shift = driven.shift", ", with the resulting centre distance":
     0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8);
 
 /// Pressure angles of usual tools, in degrees.

@@ -56,7 +56,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("largest module for the tool's flanks", &["largest_module"], Millimetre),
             row("largest addendum, no undercut", &["largest_addendum"], Millimetre),
             row("phase of the first tooth", &["phase"], Pitch),
-            row("the driver's share of the pitch", &["thickness_split"], Number),
+            row("driver's share of the pitch", &["thickness_split"], Number),
             row("tip shortening coefficient", &["tip_shortening"], Number),
             row("pressure angle of the tool", &["tool_pressure_angle"], Angle),
             row("closure error", &["closure_error"], Radian),

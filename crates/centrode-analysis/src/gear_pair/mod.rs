@@ -145,7 +145,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             && radius * concave >= 1.0
         {
             let message = format!(
-                "the shaper's pitch radius of {radius:.4} mm does not fit the {}'s concave arc, whose radius falls to {:.4} mm",
+                "the pitch radius of the shaper cutter is {radius:.4} mm, but the minimum radius of the {}'s concave arc is {:.4} mm",
                 member.name(),
                 1.0 / concave
             );
@@ -191,7 +191,7 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
     pair.rolling().sampled_corners().iter().map(|corner| {
         let unit = Unit::Angle;
         let message = format!(
-            "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it",
+            "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it off",
             unit.with_unit(corner.turn.abs()),
             unit.with_unit(corner.angle)
         );
@@ -208,7 +208,7 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
 pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     let Extreme { input, value } = pair.rolling().overlap()?;
     let message = format!(
-        "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
+        "the pitch curves overlap by up to {value:.4} mm away from their rolling contact: teeth of any size collide there"
     );
     Some(
         Finding::new("pitch-curves-overlap", Severity::of_overlap(value), message)
@@ -269,7 +269,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         Finding::new(
             "disengaged",
             Severity::Error,
-            "nothing holds the driven gear: no tooth of one gear reaches the other",
+            "the gears lose contact: no tooth of one gear reaches the other",
         )
         .remedy(remedy("disengaged"))
         .at(input)
@@ -286,7 +286,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     if penetration.value > PENETRATION * module {
         let words = if interferes { "the gears jam: " } else { "" };
         let message = format!(
-            "{words}there is no room for the teeth: the flanks on both sides of them overlap by {}",
+            "{words}the flanks on both sides of the teeth overlap by {}",
             mm(penetration.value)
         );
         report
@@ -305,7 +305,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     };
     if deepest.value > PENETRATION * module {
         let message = format!(
-            "a tip overlaps the {part} of the mate by {}",
+            "a tooth tip overlaps the {part} of the mating gear by {}",
             mm(deepest.value)
         );
         report
@@ -383,7 +383,7 @@ pub(crate) fn tight_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> 
         return None;
     }
     let message = format!(
-        "teeth of maximum thickness overlap their mates by {} along the normal: the backlash must be at least {}",
+        "teeth of maximum thickness overlap the mating teeth by {} along the normal: the backlash must be at least {}",
         unit.with_unit(-minimum),
         unit.with_unit(backlash - minimum),
     );
@@ -401,7 +401,7 @@ fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         return None;
     }
     let message = format!(
-        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} samples, and values between them may exceed these",
+        "the pitch curves have {swings} waves for {teeth} teeth: the minimum and maximum of the mesh figures are those at {} samples, and values between the samples may exceed them",
         contact.input.len()
     );
     Some(
@@ -416,10 +416,14 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let jumps = contact.seat_jumps(pair);
     let maximum = jumps.first()?;
     let (driver, driven) = maximum.teeth;
-    let pushed = if maximum.is_reverse { "back" } else { "on" };
+    let pushed = if maximum.is_reverse {
+        "back"
+    } else {
+        "forward"
+    };
     let others = match jumps.len() - 1 {
         0 => String::new(),
-        others => format!("; so it does at {others} more inputs"),
+        others => format!("; also at {others} more inputs"),
     };
     let message = format!(
         "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",

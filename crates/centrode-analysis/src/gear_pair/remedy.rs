@@ -45,16 +45,16 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         "interference" => "more backlash, or a smaller module",
         "negative-backlash" => "more backlash, or a smaller upper deviation of tooth thickness",
         "zero-backlash" => {
-            "teeth.backlash of 0.02 to 0.05 modules, and of what the process leaves on"
+            "teeth.backlash of 0.02 to 0.05 modules, plus the oversize of the manufacturing process"
         }
         "tip-interference" => "more tip clearance, or a smaller module",
-        "pitch-curve-corner" => "samples that go round the corner over a pitch or more",
+        "pitch-curve-corner" => "samples that round the corner over a pitch or more",
         "pressure-angle" => {
             "a pitch curve whose radius changes more slowly, or a smaller tool pressure angle"
         }
-        "pitch-curve-swings" => "a smoother law, or fewer points of it or more digits",
-        "pitch-curves-overlap" => "a law whose ratio swings less, or swings fewer times a turn",
-        "shaper-radius" => "a shaper of fewer teeth, or a pitch curve less concave",
+        "pitch-curve-swings" => "a smoother law, or fewer points or more digits",
+        "pitch-curves-overlap" => "a law whose ratio varies less, or has fewer waves per turn",
+        "shaper-radius" => "a shaper cutter with fewer teeth, or a less concave pitch curve",
         _ => return None,
     })
 }

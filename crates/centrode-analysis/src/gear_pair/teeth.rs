@@ -63,7 +63,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     let largest = if module < USEFUL * pair.module() {
         let sharpest = limits.convex_curvature.max(limits.concave_curvature);
         format!(
-            "the pitch curves bend to a radius of {:.4} mm, too sharp for any practical module",
+            "no practical module avoids it: the minimum radius of curvature is {:.4} mm",
             1.0 / sharpest
         )
     } else {
@@ -126,7 +126,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         Unit::Millimetre,
         &|who, worst| {
             format!(
-                "{who} are undercut, up to {worst:.4} mm of roll; {}",
+                "{who} are undercut by up to {worst:.4} mm of roll; {}",
                 largest
             )
         },
@@ -146,7 +146,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         Unit::Millimetre,
         &|who, worst| {
             format!(
-                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends"
+                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper cutter does not reach it"
             )
         },
     );
@@ -182,7 +182,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         dead,
         None,
         Unit::Count,
-        &|who, _| format!("{who} have a side without any working flank"),
+        &|who, _| format!("{who} have no working flank on at least one side"),
     );
     let present = gear.teeth().iter().filter(|t| !t.cut_through);
     let width = present
@@ -250,7 +250,7 @@ mod tests {
         }));
         // On top of the bump the second derivative of the radius is -10.
         let radius = maximum / (1.0 + 10.0 / 1.01);
-        let radius = format!("bend to a radius of {radius:.4} mm");
+        let radius = format!("the minimum radius of curvature is {radius:.4} mm");
         assert!(sharp.contains(&radius), "{radius}: {sharp}");
         assert!(!sharp.contains("largest module"), "{sharp}");
     }

@@ -31,7 +31,7 @@ pub enum BodyError {
     Empty,
     /// A point of an outline is not finite, or its square is not.
     #[error(
-        "outline {outline} has a point that is not finite, or with coordinates too large to be squared"
+        "outline {outline} has a point that is not finite, or whose coordinates are too large to be squared"
     )]
     NotFinite {
         /// Index of the outline.

@@ -15,7 +15,7 @@ const MOMENT: f64 = 1e-9;
 #[non_exhaustive]
 pub enum LinkClearanceError {
     /// A link that does not exist, or one link twice.
-    #[error("links {links:?} are not two of the machine's {count}")]
+    #[error("links {links:?} must be two different links of the machine, which has {count}")]
     Links {
         /// The requested links.
         links: [usize; 2],
@@ -23,7 +23,7 @@ pub enum LinkClearanceError {
         count: usize,
     },
     /// A joint whose motion leaves the plane of the two links.
-    #[error("the joint of {link} leads out of the plane of the two links")]
+    #[error("the joint of {link} moves it out of the plane of the two links")]
     OutOfPlane {
         /// Name of the link that the joint carries.
         link: String,

@@ -98,7 +98,7 @@ pub enum InterferenceError {
     #[error(transparent)]
     Motion(#[from] MotionError),
     /// A pair that names a body that does not exist, or one body twice.
-    #[error("the pair {pair:?} does not name two of {bodies} bodies")]
+    #[error("the pair {pair:?} must name two different bodies; there are {bodies}")]
     Pair {
         /// The pair.
         pair: [usize; 2],

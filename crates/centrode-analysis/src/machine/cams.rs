@@ -32,8 +32,8 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
                 cam.followers.join(", ")
             ),
             pushes: [
-                format!("while cam {} lifts its follower it pushes up to", cam.name),
-                "off the path of its follower".into(),
+                format!("the pressure angle of cam {} reaches", cam.name),
+                "while it lifts its follower".into(),
             ],
             remedies: [
                 "a longer span_deg, a larger base_radius, or a smaller roller",
@@ -73,7 +73,7 @@ fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
     }
     let (wall, minimum) = (radius - 0.5 * pin, Spacer::ROLLER_WALL * pin);
     let message = format!(
-        "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, {minimum:.3} mm are needed: it is no part, and has no pin",
+        "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, but needs at least {minimum:.3} mm: neither roller nor pin is made",
         cam.name,
         2.0 * radius
     );

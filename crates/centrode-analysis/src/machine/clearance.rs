@@ -44,12 +44,12 @@ pub(super) fn apart(composed: &Machine, found: &[Found], report: &mut Report) {
         };
         let [one, other] = ends.map(|end| composed.name_of_end(end));
         let message = format!(
-            "goal {}, {}: {one} and {other} share no height along the shafts, so that their clearance is infinite",
+            "goal {}, {}: {one} and {other} are at different heights along the shafts, so their clearance is infinite",
             found.goal.number, found.goal.title
         );
         Finding::new("no-common-height", Severity::Note, message)
             .measured(f64::INFINITY, None, Unit::Millimetre)
-            .remedy("one layer for both, if they are to pass each other in one plane")
+            .remedy("one layer for both, if they must pass each other in one plane")
             .on(one)
             .add_to(report);
     }

@@ -223,7 +223,7 @@ pub(super) fn findings<'a>(
         .max();
     let left = worst.filter(|_| overlaps.left > 0).map(|severity| {
         let message = format!(
-            "{} more of such pairs come near each other; they are not checked, since {MOST} collide already",
+            "{} more such pairs come near each other; they are not checked, because {MOST} already collide",
             overlaps.left
         );
         Finding::new(rule, severity, message).remedy(remedy)

@@ -199,7 +199,7 @@ pub(super) fn forces(
             .rows(of_joints.filter(known).collect()),
     );
     report.table(
-        Table::new("mesh-forces", "Force of mesh, with its sign", Unit::Newton)
+        Table::new("mesh-forces", "Force of mesh, signed", Unit::Newton)
             .columns(["minimum", "maximum"])
             .rows(of_meshes.filter(known).collect()),
     );
@@ -266,7 +266,7 @@ fn undetermined(error: &ForcesError, report: &mut Report) {
             ForcesError::Dead { .. } => Severity::Error,
             _ => Severity::Note,
         },
-        format!("there are no forces: {error}"),
+        format!("the forces cannot be computed: {error}"),
     )
     .measured(None, None, Unit::Newton)
     .add_to(report);

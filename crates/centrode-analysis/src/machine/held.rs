@@ -29,7 +29,7 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 0 => "no retaining ring",
                 _ => "one retaining ring",
             };
-            let message = format!("{name} has room for {found}: what is on it can slide off");
+            let message = format!("{name} has room for {found}: the parts on it can slide off");
             report.findings.push(
                 finding(name, Severity::Error, message)
                     .measured(rings as f64, RINGS as f64, Unit::Count)
@@ -45,7 +45,7 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                     "a gear or cam with a keyway, or plates.pin_diameter of 6 mm or more",
                 ),
                 Hold::Loose => (
-                    "but its bore or keyway is not the shaft's",
+                    "but its bore or keyway differs from that of the shaft",
                     "the bore and keyway of the first gear on the shaft",
                 ),
                 _ => continue,
@@ -74,13 +74,13 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
         let allowed = allowed.collect::<Option<Vec<f64>>>();
         let allowed = allowed.map(|all| all.into_iter().fold(f64::INFINITY, f64::min));
         let overhung = format!(
-            "{name} is held at one end, over {length:.3} mm of the frame, and loaded {arm:.3} mm off: {force:.3} N stress it to {stress:.3} N/mm²"
+            "{name} is held at one end only, over {length:.3} mm of the frame, with the load {arm:.3} mm away: {force:.3} N causes a stress of {stress:.3} N/mm²"
         );
         let (severity, message) = match allowed {
             Some(allowed) if !exceeds(stress, allowed) => continue,
             Some(allowed) => (
                 Severity::Error,
-                format!("{overhung}, {allowed:.1} are allowed"),
+                format!("{overhung}; {allowed:.1} N/mm² is allowed"),
             ),
             None => {
                 let materials = materials.join(" and ");

@@ -47,26 +47,24 @@ pub(super) fn layers(composed: &Machine, ends: &[f64], report: &mut Report) {
     };
     let (message, remedy) = match found {
         Layers::Free(layers) => (
-            format!("with {} nothing collides", words(&layers)),
+            format!("with {} there are no collisions", words(&layers)),
             "check --remedy prints the design with these layers",
         ),
         Layers::Blocked(pairs) => (
             format!(
-                "no order of the plates is free of collisions, because in each of them one of these pins runs into a plate: {}",
+                "no order of the plates is free of collisions: in each order at least one of these pins hits a plate: {}",
                 pairs.join("; ")
             ),
             "other points for one of these pins, or an outline of the plate that is clear of it",
         ),
         Layers::Tried(count) => (
             format!(
-                "no order of the plates was found in which nothing collides: the {count} in which no pin meets a plate have other collisions"
+                "no order of the plates without collisions was found: the {count} orders in which no pin hits a plate have other collisions"
             ),
             "narrower plates, thinner pins, or other layers",
         ),
         Layers::Many(count) => (
-            format!(
-                "orders are not searched for {count} plates without a layer, only for 12 and fewer"
-            ),
+            format!("{count} plates have no layer: an order is searched only for 12 or fewer"),
             "a layer for some of the bodies",
         ),
     };

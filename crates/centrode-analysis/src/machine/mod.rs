@@ -144,7 +144,7 @@ fn not_designed(made: &Made<'_>, report: &mut Report) {
     given.reverse();
     let (message, remedy) = match hardware {
         Hardware::None => (
-            "bodies, frame, pins, shafts, bearings and springs are not designed: drawings and solids are of gears and cams only, and bodies have no mass but a given one".to_owned(),
+            "bodies, frame, pins, shafts, bearings and springs are not designed: only gears and cams have drawings and solids, and a body has no mass unless the design gives it".to_owned(),
             Some("hardware = \"list\" for plates and a table per axis"),
         ),
         _ if given.is_empty() => return,
@@ -285,7 +285,7 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
             );
             Finding::new("transmission-angle", Severity::Warning, message)
                 .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
-                .remedy("longer bars against the motion that drives them, or other pins")
+                .remedy("bars that are longer relative to the motion that drives them, or other positions of the pins")
                 .on(dyad.name.clone())
                 .at(end.input)
                 .add_to(report);

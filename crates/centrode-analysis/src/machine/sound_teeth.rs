@@ -44,7 +44,7 @@ pub enum NoSoundTeeth {
     },
     /// The flanks do not carry the motion with any tooth count tried.
     #[error(
-        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between its goals"
+        "pair {pair}: full-height teeth are undercut above a module of {full_module:.4} mm, and fitted teeth do not keep contact on their flanks with any number up to {MAX_TEETH}. Change axis, bend or split, or smooth the path; for a drive, leave more room between its goals"
     )]
     None {
         /// Name of the pair.

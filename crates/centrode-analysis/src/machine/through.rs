@@ -97,7 +97,7 @@ pub(super) fn collisions(
         is_level([one, other]) && is_free()
     };
     let found = overlaps(composed, machine, &pieces, pins_may, ends, tolerance);
-    let remedy = "another layer for a plate or cam that it joins, or for what it runs into";
+    let remedy = "another layer for a plate or cam on this axis, or for the part that it hits";
     let found = findings("pins-collide", "parts", remedy, &found);
     report.findings.extend(found);
     // Plates among each other, and gears among each other, are checked elsewhere.

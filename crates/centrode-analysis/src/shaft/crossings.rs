@@ -16,7 +16,7 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     if !exceeds(length, longest) {
         let open = all.iter().filter(|c| !exceeds(length, c.gap)).count();
         let message = format!(
-            "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
+            "a slider {length} mm long loses both walls at {open} of {} crossings; it must be longer than {longest:.3} mm",
             all.len()
         );
         Finding::new("slider-length", Severity::Error, message)
@@ -83,13 +83,13 @@ fn advice(shaft: &SpiralShaft) -> String {
     let required = 1.25 * shaft.groove().width() / steepest.sin();
     match offered(shaft, required) {
         Ok(clear) if clear.return_offset == 0.0 => {
-            "no shift of the return groove makes that shorter; a hole met at the same angle on both strokes always gives a crossing there".to_owned()
+            "no offset of the return groove makes this gap shorter; a hole at the same angle on both strokes always gives a crossing there".to_owned()
         }
         Ok(clear) => format!(
-            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; a hole met at the same angle on both strokes always gives a crossing there",
+            "with return_offset = {:.4} a slider of {:.2} mm bridges the crossings of the strokes and misses each hole by {:.4} mm; a hole at the same angle on both strokes always gives a crossing there",
             clear.return_offset, clear.slider_length, clear.misplacement
         ),
-        Err(error) => format!("no shifted return groove: {error}"),
+        Err(error) => format!("the return groove cannot be offset: {error}"),
     }
 }
 

@@ -62,7 +62,7 @@ fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report)
         let message = format!(
             "the box moves {most:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
         );
-        let remedy = "a larger amplitude, moved_distance to solve for it, or a slow place where the picks are";
+        let remedy = "a larger amplitude, moved_distance to solve for it, or picks at the slow points of the law";
         Finding::new("moved-distance", Severity::Error, message)
             .measured(most, limit, Unit::Millimetre)
             .remedy(remedy)
@@ -118,7 +118,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
             "misplaced-hole",
             severity,
             format!(
-                "turn {turn} of the cycle picks {:.4} mm next to hole {hole}",
+                "turn {turn} of the cycle picks {:.4} mm away from hole {hole}",
                 misplacement.abs()
             ),
         )
@@ -135,7 +135,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         .collect();
     if let Some(first) = uneven.first() {
         let message = format!(
-            "{} of {} holes, hole {first} the first of them, are not picked exactly once on each stroke",
+            "{} of {} holes (the first is hole {first}) are not picked exactly once per stroke",
             uneven.len(),
             schedule.visits.len()
         );
@@ -167,7 +167,7 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
             "pressure-angle",
             Severity::Warning,
             format!(
-                "the wall pushes the slider up to {:.2} deg off its path",
+                "the pressure angle of the groove reaches {:.2} deg",
                 steepest.value.to_degrees()
             ),
         )
@@ -191,7 +191,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     report.values.insert("slider_clearance_min", needed);
     if exceeds(needed, slider.clearance) {
         let message = format!(
-            "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
+            "a straight slider {} mm long needs {needed:.4} mm of clearance at the tightest bend of the groove, but has {} mm",
             slider.length, slider.clearance
         );
         Finding::new(
@@ -211,7 +211,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     let longest = gaps.fold(0.0, f64::max);
     if !exceeds(guided, longest) && exceeds(slider.length, longest) {
         let message = format!(
-            "of a flat slider {} mm long only {guided:.2} mm reach into a groove on a shaft this thin: to bridge {longest:.2} mm without walls it must be bent round the shaft",
+            "only {guided:.2} mm of a flat slider {} mm long is guided by the groove of a shaft of this diameter: to bridge {longest:.2} mm without walls the slider must be bent round the shaft",
             slider.length
         );
         Finding::new("flat-slider", Severity::Warning, message)
@@ -258,7 +258,7 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
             "jamming",
             Severity::Error,
             format!(
-                "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
+                "the slider jams at a lead angle of {:.2} deg: friction requires less than {:.2} deg",
                 steepest.value.to_degrees(),
                 load.jamming_angle().to_degrees()
             ),
@@ -309,7 +309,7 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
     if exceeds(speed, limit) {
         let message = if limit > 0.0 {
             format!(
-                "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
+                "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one wall up to {limit:.2} r/min"
             )
         } else {
             "without friction on the rails the box runs ahead, and the slider changes walls on the stroke at any speed".into()
@@ -317,9 +317,9 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
         Finding::new("contact-lost", Severity::Warning, message)
             .measured(speed, limit, Unit::TurnsPerMinute)
             .remedy(if limit > 0.0 {
-                "a lower speed, a smaller amplitude, or fewer waves a turn"
+                "a lower speed, a smaller amplitude, or fewer waves per turn"
             } else {
-                "friction on the rails, rail_friction, or a box that moves evenly"
+                "friction on the rails (rail_friction), or a box with constant speed"
             })
             .on("slider")
             .add_to(report);

@@ -158,7 +158,7 @@ fn seat(machine: &MovingBox, report: &mut Report) {
     );
     Finding::new("gear-seat", Severity::Error, message)
         .measured(bore, journal, Unit::Millimetre)
-        .remedy("leave gears.body.bore out, or change shaft.body.journal_diameter")
+        .remedy("omit gears.body.bore, or change shaft.body.journal_diameter")
         .on("gears")
         .add_to(report);
 }

@@ -33,14 +33,14 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
             at: Box::new(move |input| (steady(even(input)), plain)),
         },
         Way {
-            name: "the groove alone",
+            name: "groove only",
             at: Box::new(move |input| {
                 let law = shaft.law().at(input);
                 (law, lead(law))
             }),
         },
         Way {
-            name: "the gears alone",
+            name: "gears only",
             at: Box::new(move |input| (steady(machine.shaft_turn(input)), plain)),
         },
         Way {
@@ -66,10 +66,10 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     vec![
         Table::new(
             "schemes",
-            "Box while a seedling is picked",
+            "Movement of the box while a seedling is picked",
             Unit::Millimetre,
         )
-        .columns(["moves", "may move"])
+        .columns(["movement", "limit"])
         .rows(rows(&|way| {
             let place = |input: f64| (way.at)(input).0.position;
             vec![
@@ -138,8 +138,8 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let of = |side: usize| eighths(|theta| forces(theta).iter().map(|force| force[side]).collect());
     let columns = if sine { 3 } else { 2 };
     let (normal, transverse) = (
-        "Normal force next to the paper's",
-        "Transverse force next to the paper's",
+        "Normal force compared with the paper's",
+        "Transverse force compared with the paper's",
     );
     let mut tables = vec![
         Table::new("normal-forces", normal, Unit::Newton)
@@ -158,7 +158,7 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
             let ours = shaft.stroke_acceleration(theta, load);
             [Some(ours), printed(theta)].into_iter().flatten().collect()
         };
-        let title = "Acceleration next to the paper's";
+        let title = "Acceleration compared with the paper's";
         tables.push(
             Table::new("accelerations", title, Unit::MetrePerSecondSquared)
                 .columns(["acceleration", "by (16)"])

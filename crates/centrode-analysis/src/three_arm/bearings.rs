@@ -22,14 +22,14 @@ pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
         let narrowest = Bearing::narrowest(bore).map(|bearing| bearing.width);
         let why = match narrowest {
             Some(width) => format!(
-                "the narrowest is {width} mm wide, the plates of the carrier are {wall} mm thick"
+                "the narrowest bearing is {width} mm wide, but the plates of the carrier are {wall} mm thick"
             ),
             None => format!("no bearing of series 618, 60 and 62 has a bore of {bore} mm"),
         };
         Finding::new(
             "no-bearing",
             Severity::Warning,
-            format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
+            format!("the {bore} mm shaft of the {part} runs in the plates without bearings: {why}"),
         )
         .measured(wall, narrowest, Unit::Millimetre)
         .remedy("thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm")

@@ -27,7 +27,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         heading: "Clearance of the arms",
         columns: &["minimum", "proven"],
         rows: &[
-            row("from one another", &["arm_clearance", "arm_clearance_bound"], Millimetre),
+            row("between arms", &["arm_clearance", "arm_clearance_bound"], Millimetre),
             row("at a carrier turn of", &["arm_clearance_input"], Angle),
             row("from planted seedlings", &["arm_seedling_clearance", "arm_seedling_clearance_bound"], Millimetre),
             row("at a carrier turn of", &["arm_seedling_clearance_input"], Angle),

@@ -24,7 +24,7 @@ pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
         length(
             1,
             "arm-clearance",
-            "arms clear of each other",
+            "clearance between arms",
             None,
             required.arm_clearance,
         ),
@@ -52,14 +52,14 @@ pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
         length(
             5,
             "seedling-clearance",
-            "clamp clear of planted seedlings",
+            "clearance from planted seedlings",
             None,
             required.seedling_clearance,
         ),
         length(
             6,
             "gearbox-clearance",
-            "gearbox above the ground",
+            "height of gearbox above ground",
             Some(figures.gearbox_clearance),
             required.gearbox_clearance,
         ),
@@ -74,7 +74,7 @@ pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
         Goal::new(
             8,
             "sound-teeth",
-            "flanks unsound at full height",
+            "undercut or short full-height flanks",
             Unit::Count,
         )
         .maximum(0.0, 10.0),

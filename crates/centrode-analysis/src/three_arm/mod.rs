@@ -130,8 +130,9 @@ fn check_teeth(
 /// Clearances of the arms; `None` if they cannot be determined.
 fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
     let body = mechanism.arm_body().map_err(|error| {
-        let message = format!("there is no such arm: {error}");
-        let remedy = "a shorter arm.clamp_length, a longer arm.tip_distance, or sizes of your own in arm.body";
+        let message = format!("the arm cannot be built: {error}");
+        let remedy =
+            "a shorter arm.clamp_length, a longer arm.tip_distance, or other sizes in arm.body";
         Finding::new("arm-body", Severity::Error, message)
             .remedy(remedy)
             .on("arm.body")
@@ -201,7 +202,7 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     }
     // Stems in a tray are held by their plugs and spring back.
     let severity = Severity::of_deviation(-found.minimum);
-    let message = "an arm bends stems of the rows still in the tray";
+    let message = "an arm bends stems of seedlings that are still in the tray";
     Finding::new("unpicked-seedlings", severity, message)
         .measured(found.minimum, 0.0, Unit::Millimetre)
         .on("tray")
@@ -221,7 +222,7 @@ fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
         "the gearbox reaches behind the tray's surface",
     )
     .measured(clearance, 0.0, Unit::Millimetre)
-    .remedy("a smaller bend_deg of either sign, or a tray farther away")
+    .remedy("a bend_deg nearer to 0, or a tray farther away")
     .on("tray")
     .add_to(report);
 }
@@ -294,7 +295,10 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
 fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     let reason = |goal: &Goal| match &*goal.name {
         "arm-clearance" if mechanism.arms() == 1 => (Severity::Note, "there is no other arm"),
-        "arm-clearance" => (Severity::Error, "there is no arm to hold against another"),
+        "arm-clearance" => (
+            Severity::Error,
+            "the clearance of the arms cannot be determined",
+        ),
         _ if mechanism.design().gear_tooth_count().is_none() => {
             (Severity::Warning, "the design has no tooth_count")
         }
@@ -322,7 +326,7 @@ fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
             continue;
         }
         let message = format!(
-            "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
+            "of {} flanks per gear ({part}), {} are undercut and {} do not reach the full addendum at this module",
             sound.flanks, sound.undercut, sound.short
         );
         Finding::new("full-teeth", Severity::Warning, message)

@@ -34,8 +34,8 @@ pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Re
         pressure_angle: PRESSURE_ANGLE,
         undercut: "the cam is undercut: the rod cannot follow its motion there".into(),
         pushes: [
-            "while the cam draws the rod back it pushes up to".into(),
-            "off the fork's path".into(),
+            "the pressure angle of the cam reaches".into(),
+            "while it draws the rod back".into(),
         ],
         remedies: [
             "a longer cam.closing_deg or cam.release_deg, a larger cam.base_radius, or a smaller roller",

@@ -44,7 +44,7 @@ pub enum CamError {
     Transmission(#[from] TransmissionError),
     /// A motion that changes so fast that the contour takes too many segments.
     #[error(
-        "from {degrees:.3} deg on the cam's contour takes more than {most} segments up to the next break: its follower's motion changes too fast"
+        "the follower's motion changes too fast after {degrees:.3} deg: up to its next break the cam's contour needs more than {most} segments"
     )]
     Wild {
         /// Cam angle where the contour needs too many segments, degrees.
@@ -54,7 +54,7 @@ pub enum CamError {
     },
     /// A motion that does not come back after one turn of the cam.
     #[error(
-        "the follower must come back after one turn of the cam, but its motion repeats after {period} rad and advances by {advance}"
+        "the follower must be back at its start after one turn of the cam, but its motion has a period of {period} rad and advances by {advance} per period"
     )]
     NotPeriodic {
         /// Input after which the motion repeats.
@@ -64,7 +64,7 @@ pub enum CamError {
     },
     /// A slide whose offset exceeds the distance of the roller's centre from the axis.
     #[error(
-        "the slide passes the axis at {offset} mm, but the roller's centre is only {prime_radius} mm from it"
+        "the slide is offset by {offset} mm from the axis, but the roller's centre is only {prime_radius} mm from the axis"
     )]
     Offset {
         /// Distance of the slide from the axis, mm.
@@ -74,7 +74,7 @@ pub enum CamError {
     },
     /// An arm that does not reach the base circle.
     #[error(
-        "an arm of {arm} mm, {center_distance} mm from the axis, cannot touch the base circle: it needs {distance} mm from axis to roller centre or face"
+        "an arm of {arm} mm with its pivot {center_distance} mm from the axis cannot reach the base circle: the roller's centre or the face must be {distance} mm from the axis"
     )]
     Reach {
         /// Length of the arm or offset of its face, mm.
@@ -86,7 +86,7 @@ pub enum CamError {
     },
     /// An arm that swings through the line from its pivot to the axis, or beyond the opposite direction.
     #[error(
-        "at {degrees} deg the arm is at {arm_degrees} deg to the line of centres: it must stay between 0 and 180"
+        "at {degrees} deg the arm is at {arm_degrees} deg to the line of centres: this angle must be between 0 and 180 deg"
     )]
     ArmTurnsOver {
         /// Cam angle.
@@ -95,7 +95,9 @@ pub enum CamError {
         arm_degrees: f64,
     },
     /// A slide driven through the axis.
-    #[error("at {degrees} deg the follower is {distance} mm from the axis along its slide")]
+    #[error(
+        "at {degrees} deg the follower is {distance} mm from the axis along its slide: this distance must be above 0"
+    )]
     ThroughAxis {
         /// Cam angle.
         degrees: f64,
@@ -103,14 +105,16 @@ pub enum CamError {
         distance: f64,
     },
     /// A flat face that turns with the cam: no point of the profile can touch it.
-    #[error("at {degrees} deg the follower's face turns as fast as the cam, or faster")]
+    #[error(
+        "at {degrees} deg the follower's face turns as fast as the cam or faster: it cannot touch the profile"
+    )]
     FaceTurnsBack {
         /// Cam angle.
         degrees: f64,
     },
     /// A required retraction of a push rod that its fork cannot reach.
     #[error(
-        "at {degrees} deg the rod is to be {retraction} mm back, more than a lever of {length} mm can do"
+        "at {degrees} deg the rod must be retracted by {retraction} mm, which a lever of {length} mm cannot reach"
     )]
     Retraction {
         /// Cam angle.
@@ -128,21 +132,21 @@ pub enum CamError {
     },
     /// No part of the profile is left after its loops are cut off.
     #[error(
-        "the cam has no profile: every part of it lies in a loop, so the roller is too large for the base circle"
+        "the cam has no profile: nothing of it remains after its loops are cut off, because the roller is too large for the base circle"
     )]
     Looped,
     /// The crossings of the profile with itself cannot be determined.
     #[error("the cam has no profile: {0}")]
     Unresolved(LoopError),
     /// A profile that does not enclose the axis.
-    #[error("the profile does not go round the axis")]
+    #[error("the profile does not enclose the axis")]
     AxisOutside,
     /// The contour does not close.
     #[error(transparent)]
     Open(#[from] OpenOutline),
     /// The bore, with its keyway, cuts into the profile.
     #[error(
-        "the bore reaches {reach} mm from the axis, but the profile comes as near as {minimum} mm"
+        "the bore reaches {reach} mm from the axis, but the minimum radius of the profile is {minimum} mm"
     )]
     Bore {
         /// Radius reached by bore and keyway, mm.

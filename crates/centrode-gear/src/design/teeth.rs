@@ -227,7 +227,7 @@ impl JsonSchema for Phase {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "Where the teeth sit on the driver's pitch curve: a word, or the pitches from the polar angle zero to the middle of a tooth.",
+            "description": "Position of the teeth on the driver's pitch curve: a word, or the pitches from the polar angle zero to the middle of a tooth.",
             "anyOf": [
                 { "enum": WORDS.map(|(word, _)| word) },
                 { "type": "number" }

@@ -14,7 +14,7 @@ pub enum IntermittentError {
     },
     /// The toothed arc leaves no room for a dwell.
     #[error(
-        "{kept} teeth and the entry and exit take {motion} rad of the driver's turn, so nothing is left to dwell: the toothed arc must turn the driven gear faster than one to one (more than {kept} pitches round the driver)"
+        "{kept} teeth with entry and exit take {motion} rad of the driver's turn, which leaves no dwell: the driver needs more than {kept} pitches"
     )]
     NoDwell {
         /// Number of teeth.
@@ -24,7 +24,7 @@ pub enum IntermittentError {
     },
     /// The driven gear does not come to rest where it can be locked again.
     #[error(
-        "{kept} teeth move the driven gear by {kept}/{driven} of a turn: it needs stops at equal angles, so one number must be a multiple of the other"
+        "{kept} teeth move the driven gear by {kept}/{driven} of a turn: for stops at equal angles one of the two numbers must be a multiple of the other"
     )]
     Stops {
         /// Number of teeth.
@@ -74,7 +74,7 @@ impl IntermittentDrive {
         for (name, count) in [
             ("the driver's number of pitches", driver_pitches),
             ("the driven gear's number of pitches", driven_pitches),
-            ("the number of teeth kept", kept),
+            ("the driver's number of teeth", kept),
         ] {
             if count == 0 {
                 return Err(IntermittentError::NoTeeth { name });

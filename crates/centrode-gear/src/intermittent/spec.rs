@@ -102,7 +102,7 @@ pub enum IntermittentPairError {
     Pair(#[from] GearPairError),
     /// The driven gear does not come to rest where it can be locked again.
     #[error(
-        "{kept} teeth move the driven gear by {kept}/{driven} of a turn: it needs stops at equal angles, so one number must be a multiple of the other"
+        "{kept} teeth move the driven gear by {kept}/{driven} of a turn: for stops at equal angles one of the two numbers must be a multiple of the other"
     )]
     Stops {
         /// Pitches driven in one turn of the driver.
@@ -112,7 +112,7 @@ pub enum IntermittentPairError {
     },
     /// Several stops in a turn of a driven gear that is not round.
     #[error(
-        "{kept} teeth stop the driven gear {} times in a turn: only round gears come to each stop in the same pose", .driven / .kept
+        "with {kept} teeth the driven gear stops {} times per turn: only circular gears have the same pose at each stop", .driven / .kept
     )]
     StopsNeedCircles {
         /// Pitches driven in one turn of the driver.
@@ -122,7 +122,7 @@ pub enum IntermittentPairError {
     },
     /// The toothed arc leaves no room for a dwell.
     #[error(
-        "{kept} teeth and the entry and exit take {motion} rad of the driver's turn, so nothing is left to dwell: the driver needs more pitches than it drives"
+        "{kept} teeth with entry and exit take {motion} rad of the driver's turn, which leaves no dwell: the driver needs more than {kept} pitches"
     )]
     NoDwell {
         /// Pitches driven in one turn of the driver.
@@ -140,7 +140,7 @@ pub enum IntermittentPairError {
     },
     /// A locking arc that does not reach the driven gear.
     #[error(
-        "the locking arc of radius {radius} mm does not reach the driven gear, which begins {minimum} mm from the driver's axis"
+        "the locking arc of radius {radius} mm does not reach the driven gear, whose nearest point is {minimum} mm from the driver's axis"
     )]
     LockTooSmall {
         /// Its radius, mm.
@@ -150,7 +150,7 @@ pub enum IntermittentPairError {
     },
     /// A locking arc that overlaps the bore of the driven gear.
     #[error(
-        "the locking arc of radius {radius} mm overlaps the driven gear's bore, which begins {maximum} mm from the driver's axis"
+        "the locking arc of radius {radius} mm overlaps the driven gear's bore, whose nearest point is {maximum} mm from the driver's axis"
     )]
     LockOverlaps {
         /// Its radius, mm.
@@ -160,7 +160,7 @@ pub enum IntermittentPairError {
     },
     /// No tooth reaches above the locking arc.
     #[error(
-        "of {kept} teeth none is left above the locking arc of radius {lock_radius} mm: take more of them, or a smaller arc"
+        "none of the {kept} teeth reaches above the locking arc of radius {lock_radius} mm: use more teeth, or a smaller arc"
     )]
     NoTeethLeft {
         /// Pitches to be driven.
@@ -170,7 +170,7 @@ pub enum IntermittentPairError {
     },
     /// The pins would pass the driver's bore.
     #[error(
-        "the pins come within {nearest} mm of the driver's axis, and its bore has a radius of {hub} mm"
+        "the pins come within {nearest} mm of the driver's axis, but the radius of its bore is {hub} mm"
     )]
     PinMeetsHub {
         /// Distance of a pin's nearest point, mm.

@@ -29,7 +29,7 @@ pub enum GearPairError {
     Profile(#[from] ProfileError),
     /// Neither the pair nor the curve gives the number of teeth of the driver.
     #[error(
-        "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
+        "tooth_count is missing: give tooth_count for the pair, or module and tooth_count for the pitch curve"
     )]
     NoToothCount,
     /// The driven gear has no whole number of teeth, or too few.
@@ -41,7 +41,7 @@ pub enum GearPairError {
         ratio: (u32, u32),
     },
     /// The pitch curve's law and the written mean ratio disagree.
-    #[error("mean_ratio is {}:{} but the pitch curve's law makes it {}:{}", written.0, written.1, implied.0, implied.1)]
+    #[error("mean_ratio is {}:{}, but the law of the pitch curve gives {}:{}", written.0, written.1, implied.0, implied.1)]
     MeanRatio {
         /// Ratio as written.
         written: (u32, u32),
@@ -50,7 +50,7 @@ pub enum GearPairError {
     },
     /// The pitch curve has so many waves that comparing those of each tooth with each other takes too long.
     #[error(
-        "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MAX_WORK} at most: smooth the law, or give fewer points or more digits"
+        "the pitch curves have {swings} waves for {teeth} teeth: waves times waves per tooth must be at most {MAX_WORK}. Smooth the law, or give fewer points or more digits"
     )]
     Waves {
         /// Number of waves of the radius per turn.
@@ -60,7 +60,7 @@ pub enum GearPairError {
     },
     /// The pitch curve has many waves per tooth, on arcs too small for a tooth.
     #[error(
-        "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MAX_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
+        "the pitch curves have {swings} waves for {teeth} teeth and a minimum radius of curvature of {radius:.4} mm. Below half a module (module {module:.4} mm) at most {MAX_SWINGS} waves per tooth are allowed. Smooth the law, or give fewer points or more digits"
     )]
     Swings {
         /// Number of waves of the radius per turn.
@@ -84,7 +84,7 @@ pub enum GearPairError {
     },
     /// The required centre distance is not the one at which the curves roll.
     #[error(
-        "center_distance is {required} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
+        "center_distance is {required} mm, but the driven pitch curve closes only at {needed} mm"
     )]
     CenterDistance {
         /// Distance as written, mm.
@@ -93,13 +93,13 @@ pub enum GearPairError {
         needed: f64,
     },
     /// Profile shifts with a sum on pitch curves that are not circles.
-    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or heights per gear, driver.addendum and driven.addendum", stated(.shifts[0] + .shifts[1]), stated(-.shifts[0]))]
+    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve fits both flanks of the thicker tooth. Give opposite shifts, driven.shift = {}, or an addendum per gear, driver.addendum and driven.addendum", stated(.shifts[0] + .shifts[1]), stated(-.shifts[0]))]
     ShiftSum {
         /// Profile shift coefficients of driver and driven gear.
         shifts: [f64; 2],
     },
     /// Fitted teeth with a sum of profile shifts.
-    #[error("teeth are fitted, but driver.shift + driven.shift is {}: fitting needs pitch curves that are those of the tool. Give addendum = \"full\" and no fit, or opposite shifts", stated(*.sum))]
+    #[error("fitted teeth need driver.shift + driven.shift = 0, not {}: the tools must roll on the pitch curves of the pair. Give addendum = \"full\" and no fit, or opposite shifts", stated(*.sum))]
     FittedShift {
         /// Sum of the profile shift coefficients.
         sum: f64,
@@ -124,7 +124,7 @@ pub enum GearPairError {
     },
     /// A centre distance within the base circles.
     #[error(
-        "center_distance is {required} mm, but the radii of the base circles are {minimum:.6} mm together: it must be greater"
+        "center_distance is {required} mm, but must exceed the sum of the base radii, {minimum:.6} mm"
     )]
     BaseCircles {
         /// Distance as written, mm.
@@ -133,7 +133,7 @@ pub enum GearPairError {
         minimum: f64,
     },
     /// The bore, with its keyway, cuts into the teeth.
-    #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
+    #[error("the bore of the {} reaches {reach} mm from the axis, but the minimum radius of its outline is {root} mm", .member.name())]
     Bore {
         /// Gear at fault.
         member: Member,

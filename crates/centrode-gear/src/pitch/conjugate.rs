@@ -44,7 +44,7 @@ impl Conjugate {
         );
         size.check()?;
         if self.depth() > DEEPEST {
-            let (key, rule) = ("of", "is a conjugate of conjugates more than four deep");
+            let (key, rule) = ("of", "nests conjugates more than four deep");
             return Err(PitchError::Key { key, rule });
         }
         let of = self.of.resolve().map_err(|e| PitchError::Of(Box::new(e)))?;

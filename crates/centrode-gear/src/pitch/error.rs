@@ -52,7 +52,7 @@ pub enum PitchError {
     },
     /// A curve so long or so short that powers of its lengths overflow or underflow.
     #[error(
-        "{key} makes a pitch curve {length:e} mm long; it must be {minimum:e} to {maximum:e} mm"
+        "{key} gives a pitch curve {length:e} mm long; the length must be {minimum:e} to {maximum:e} mm"
     )]
     Size {
         /// The key that sets the size.
@@ -83,9 +83,7 @@ pub enum PitchError {
         second_length: usize,
     },
     /// Too few points for the degree.
-    #[error(
-        "{key} has {count} values; {minimum} are the fewest that make a closed curve of this kind"
-    )]
+    #[error("{key} has {count} values; a closed curve of this kind needs at least {minimum}")]
     TooFewPoints {
         /// Key of the list.
         key: &'static str,
@@ -186,7 +184,7 @@ pub enum PitchError {
     },
     /// A function has no finite value somewhere in the cycle.
     #[error(
-        "{key} has the value {value} at phi = {angle:.3} deg: it or a derivative is not a finite number there"
+        "{key} or one of its derivatives is not a finite number at phi = {angle:.3} deg: its value there is {value}"
     )]
     Undefined {
         /// Key of the function.
@@ -198,7 +196,7 @@ pub enum PitchError {
     },
     /// A formula with features too narrow to be followed.
     #[error(
-        "{key} changes within about {width:.1e} rad; what is narrower than {minimum:.1e} rad is not followed: take a gentler step, a wider bump or slower waves"
+        "{key} changes within about {width:.1e} rad, but features narrower than {minimum:.1e} rad cannot be resolved: use a gentler step, a wider bump or slower waves"
     )]
     Steep {
         /// Key of the function.
@@ -222,7 +220,7 @@ pub enum PitchError {
     },
     /// The driven gear's turns in one driver turn are not a ratio of small whole numbers.
     #[error(
-        "one driver turn makes {turns} driven turns, which is no ratio of whole numbers up to {limit}: the gears would never close"
+        "one driver turn gives {turns} driven turns, which is not a ratio of whole numbers up to {limit}: the driven pitch curve would not close"
     )]
     RatioNotRational {
         /// Key of the function.
@@ -233,7 +231,7 @@ pub enum PitchError {
         limit: u32,
     },
     /// The curve changes so fast that no sampling follows it reliably.
-    #[error("the curve changes too fast near {angle:.3} deg to be followed")]
+    #[error("the curve changes too fast near {angle:.3} deg to be resolved")]
     TooRough {
         /// Key of the shape.
         key: &'static str,

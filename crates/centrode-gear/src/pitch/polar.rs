@@ -130,7 +130,7 @@ impl Polar {
         {
             return Err(PitchError::Key {
                 key: "interpolation",
-                rule: "must be \"cubic\" where angle_deg is given",
+                rule: "must be \"cubic\" if angle_deg is given",
             });
         }
         let table = Periodic::uneven("radius", &self.angle, &self.radius)?;
@@ -151,7 +151,7 @@ impl Polar {
         match stray {
             Some((_, key, _)) => Err(PitchError::Key {
                 key,
-                rule: "does not go with the other keys: give one of expression, radius (with angle_deg, interpolation), mean (with cos, sin)",
+                rule: "cannot be given together with the other keys: give one of expression, radius (with angle_deg, interpolation), mean (with cos, sin)",
             }),
             None => Ok(()),
         }

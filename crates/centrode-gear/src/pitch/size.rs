@@ -73,7 +73,7 @@ impl Size {
             positive("diametral_pitch", pitch)?;
             if self.module.is_some() {
                 let key = "diametral_pitch";
-                let rule = "does not go with module: give one of them";
+                let rule = "cannot be given together with module: give one of them";
                 return Err(PitchError::Key { key, rule });
             }
         }

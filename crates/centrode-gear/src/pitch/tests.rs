@@ -342,14 +342,14 @@ fn a_diametral_pitch_is_a_module() {
         for (size, message) in [
             (
                 "module = 2\ndiametral_pitch = 16\ntooth_count = 40",
-                "does not go with module",
+                "cannot be given together with module",
             ),
             ("diametral_pitch = 0\ntooth_count = 40", "greater than 0"),
             ("diametral_pitch = -16\ntooth_count = 40", "greater than 0"),
             ("diametral_pitch = nan\ntooth_count = 40", "finite"),
             (
                 "diametral_pitch = 1e-60\ntooth_count = 40",
-                "makes a pitch curve",
+                "gives a pitch curve",
             ),
             ("diametral_pitch = 16", "given without tooth_count"),
         ] {

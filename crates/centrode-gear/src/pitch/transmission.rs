@@ -206,7 +206,7 @@ fn formula_alone(
     given: bool,
     interpolation: Option<Interpolation>,
 ) -> Result<(), PitchError> {
-    let rule = "does not go with expression: give one of them";
+    let rule = "cannot be given together with expression: give one of them";
     let interpolated = interpolation.map(|_| "interpolation");
     match given.then_some(list).or(interpolated) {
         Some(key) => Err(PitchError::Key { key, rule }),

@@ -9,7 +9,7 @@ use super::Role;
 #[non_exhaustive]
 pub enum ProfileError {
     /// The pitch curve is too sharp for any tooth.
-    #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
+    #[error("the {} has no profile: nothing of its contour remains after its loops are cut off, because the teeth are too large for the pitch curve", .member.name())]
     Looped {
         /// Gear at fault.
         member: Member,
@@ -23,7 +23,7 @@ pub enum ProfileError {
         cause: LoopError,
     },
     /// Two curves of a tooth that do not meet.
-    #[error("the {} has no profile: on tooth {tooth} {} and {} end {gap:.3e} mm apart, so the teeth are too large for the pitch curve", .member.name(), .roles[0].name(), .roles[1].name())]
+    #[error("the {} has no profile: on tooth {tooth} the ends of {} and {} are {gap:.3e} mm apart, because the teeth are too large for the pitch curve", .member.name(), .roles[0].name(), .roles[1].name())]
     Gap {
         /// Gear at fault.
         member: Member,
@@ -35,7 +35,7 @@ pub enum ProfileError {
         gap: f64,
     },
     /// A contour that does not enclose its axis, so that no shaft can carry the gear.
-    #[error("the {} has no profile: its axis lies outside its contour, {away:.6} mm from it, so the teeth are too large for the pitch curve", .member.name())]
+    #[error("the {} has no profile: its axis is outside its contour, {away:.6} mm from it, because the teeth are too large for the pitch curve", .member.name())]
     AxisOutside {
         /// Gear at fault.
         member: Member,

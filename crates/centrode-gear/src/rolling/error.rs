@@ -6,7 +6,7 @@ use super::Rolling;
 pub enum RollingError {
     /// The pitch curve does not wind once around the shaft.
     #[error(
-        "the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward"
+        "the polar angle of the pitch curve changes by {turned} rad over its length; it must increase by 2 pi without turning back"
     )]
     NotAroundAxis {
         /// Polar angle swept in one round, rad.
@@ -14,7 +14,7 @@ pub enum RollingError {
     },
     /// The pitch curve oscillates or has kinks too often to be followed.
     #[error(
-        "the pitch curve oscillates or has kinks too often: with up to 4096 pieces between two neighbouring joints it is still not smooth in {unsettled} of the pieces; at most {most} are allowed; smooth the law"
+        "the pitch curve oscillates or has kinks too often: divided into up to 4096 pieces between neighbouring joints, {unsettled} pieces are still not smooth; at most {most} are allowed. Smooth the law"
     )]
     Unsettled {
         /// Number of pieces on which no polynomial represents the curve's length to a billionth.
@@ -23,7 +23,7 @@ pub enum RollingError {
         most: usize,
     },
     /// The mean ratio has no closed driven curve.
-    #[error("mean ratio {}:{} needs a driver that repeats {} times a turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
+    #[error("mean ratio {}:{} needs a driver that repeats {} times per turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
     NotPeriodic {
         /// Turns of driver : turns of driven.
         ratio: (u32, u32),
@@ -31,14 +31,14 @@ pub enum RollingError {
         difference: f64,
     },
     /// A mean ratio with a number that is zero or too large.
-    #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::MAX_TURNS)]
+    #[error("both numbers of the mean ratio {}:{} must be from 1 to {}", ratio.0, ratio.1, Rolling::MAX_TURNS)]
     MeanRatio {
         /// Turns of driver : turns of driven.
         ratio: (u32, u32),
     },
     /// No centre distance closes the driven curve.
     #[error(
-        "no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {required}"
+        "no centre distance closes the driven curve: at {center_distance} mm one driver turn turns the driven gear by {turned} rad instead of {required} rad"
     )]
     NoClosure {
         /// The last centre distance tried, mm.

@@ -163,7 +163,7 @@ pub enum CrossingError {
     #[error("a coordinate is not a number")]
     NotFinite,
     /// Curves that coincide, within the tolerance, over a length.
-    #[error("two parts lie on each other about ({:.6}, {:.6}) mm", .near.x, .near.y)]
+    #[error("two parts overlap near ({:.6}, {:.6}) mm", .near.x, .near.y)]
     Overlap {
         /// A point of the overlap, mm.
         near: Point,

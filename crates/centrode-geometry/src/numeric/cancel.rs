@@ -177,7 +177,7 @@ fn finished<T, F: FnOnce() -> T>(
     match (ended, taken(job)) {
         (Some(result), _) => result,
         (None, Some(job)) => Ok(job()),
-        (None, None) => Err(Box::new("a job is gone")),
+        (None, None) => Err(Box::new("the result of a job is lost")),
     }
 }
 

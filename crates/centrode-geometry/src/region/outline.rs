@@ -45,7 +45,7 @@ impl Outline {
 /// Segments that do not join into a closed contour.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "outline is open: segment {index} starts {gap:e} mm away from the end of the one before it"
+    "the outline is open: segment {index} starts {gap:e} mm from the end of the previous segment"
 )]
 pub struct OpenOutline {
     /// The segment that does not start at the end of the previous one.

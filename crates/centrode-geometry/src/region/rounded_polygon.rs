@@ -7,7 +7,7 @@ use crate::{
 /// Side of a polygon too short for the roundings of its two corners.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the side of {length:.6} mm from corner {side} on is too short for roundings that take {taken:.6} mm of it"
+    "the side that starts at corner {side} is {length:.6} mm long, but the roundings of its corners need {taken:.6} mm"
 )]
 pub struct ShortSide {
     /// Index of the corner at which the side begins.

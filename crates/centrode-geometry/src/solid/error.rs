@@ -5,7 +5,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SolidError {
     /// The top is not above the bottom.
-    #[error("a solid must be higher than it begins: bottom {bottom} mm, top {top} mm")]
+    #[error("the top of a solid must be above its bottom: bottom {bottom} mm, top {top} mm")]
     NoHeight {
         /// Lower face, mm.
         bottom: f64,
@@ -29,7 +29,7 @@ pub enum SolidError {
         tolerance: f64,
     },
     /// A hole is not inside the outer contour, or lies in another hole.
-    #[error("hole {hole} does not lie in the material")]
+    #[error("hole {hole} is outside the outer contour or inside another hole")]
     HoleOutside {
         /// Index of the hole.
         hole: usize,
@@ -44,7 +44,7 @@ pub enum SolidError {
     },
     /// An opening does not lie in a wall of the solid.
     #[error(
-        "an opening from {from} to {to} mm does not go through a wall between the outline and a hole, from {bottom} to {top} mm"
+        "an opening at heights {from} to {to} mm must go through a wall between the outline and a hole; the solid is at heights {bottom} to {top} mm"
     )]
     Opening {
         /// Its lower end, mm.

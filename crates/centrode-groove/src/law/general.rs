@@ -10,7 +10,7 @@ use centrode_gear::pitch::{Interpolation, Periodic, PitchError, formula_parts, r
 use centrode_kinematics::formula::{Formula, Taylor};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
-use centrode_spec::rule::{Rule, SpecError, positive};
+use centrode_spec::rule::positive;
 
 /// Speeds at chosen shaft angles, each joined to the next by a motion law; only their ratios count.
 ///
@@ -176,15 +176,9 @@ impl SpeedKnots {
         }
         let in_turn = self.angle.iter().all(|a| (0.0..TAU).contains(a));
         if !in_turn || self.angle.windows(2).any(|pair| pair[1] <= pair[0]) {
-            let worst = self.angle.iter().fold(0.0_f64, |m, &a| m.max(a));
-            return Err(ShaftError::Spec(SpecError {
-                key: "law.angle_deg".into(),
-                rule: Rule::OutOfRange {
-                    value: worst.to_degrees(),
-                    minimum: 0.0,
-                    maximum: 360.0,
-                    unit: " deg, ascending",
-                },
+            return Err(ShaftError::Speed(PitchError::Key {
+                key: "angle_deg",
+                rule: "must increase from value to value, from 0 to less than 360 deg",
             }));
         }
         let speed = Speed::Knots {

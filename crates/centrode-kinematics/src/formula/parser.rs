@@ -166,7 +166,7 @@ impl Parser<'_> {
             Some(c) if c.is_alphabetic() || c == '_' => self.name(),
             Some(c) => self.fail(format!("a number, phi or '(' is missing before {c:?}")),
             None if self.text.is_empty() => self.fail("an empty formula"),
-            None => self.fail("the formula breaks off"),
+            None => self.fail("the formula ends too early"),
         }
     }
 
@@ -204,7 +204,7 @@ impl Parser<'_> {
                 self.emit(Step::Constant(value));
                 Ok(())
             }
-            _ => self.fail(format!("{number:?} is no number")),
+            _ => self.fail(format!("{number:?} is not a number")),
         }
     }
 

@@ -118,15 +118,15 @@ fn a_turn_is_parted_where_a_formula_has_what_is_narrow() {
 fn faults_name_their_place() {
     for (text, reason, column) in [
         ("", "empty", 1),
-        ("1 + ", "breaks off", 5),
+        ("1 + ", "ends too early", 5),
         ("1 + psi", "did you mean \"phi\"", 5),
         ("1 + velocity", "known are sin", 5),
         ("(1 + 2", "')' is missing", 7),
         ("1)", "without its '('", 2),
         ("2 phi", "operator is missing", 3),
         ("sin phi", "'(' is missing", 5),
-        ("1..2", "no number", 1),
-        ("1e999", "no number", 1),
+        ("1..2", "not a number", 1),
+        ("1e999", "not a number", 1),
         ("1 + *2", "missing before '*'", 5),
         ("phi $ 2", "missing before '$'", 5),
     ] {

@@ -21,7 +21,7 @@ pub enum LinkageError {
         value: f64,
     },
     /// A joint or link of another linkage.
-    #[error("{what} {index} is not of this linkage, which has {count} of them")]
+    #[error("{what} {index} does not exist in this linkage, which has {count}")]
     Unknown {
         /// Kind of item: `joint` or `link`.
         what: &'static str,
@@ -31,7 +31,7 @@ pub enum LinkageError {
         count: usize,
     },
     /// A second crank.
-    #[error("the linkage has its crank already: one input moves it")]
+    #[error("the linkage already has a crank: it can have only one")]
     SecondCrank,
     /// A dyad cannot close.
     #[error("dyad {dyad} cannot close {}", not_closing(*input, *missing))]

@@ -15,7 +15,7 @@ use crate::transmission::{FromFn, Transmission};
 pub enum SixBarError {
     /// The four-bar in it is not a crank-rocker.
     #[error(
-        "the four-bar must be a crank-rocker, but it is a {}: the crank must be the shortest, and shortest and longest together must stay below the two others (here by {margin} mm)", .class.name()
+        "the four-bar must be a crank-rocker, but it is a {}: the crank must be the shortest link, and Grashof's margin must be above 0: it is {margin} mm (the two other lengths minus shortest and longest)", .class.name()
     )]
     NotCrankRocker {
         /// Its Grashof type.
@@ -25,7 +25,7 @@ pub enum SixBarError {
     },
     /// The effector's pivot lies on the path of the slider.
     #[error(
-        "the effector's pivot ({x}, {y}) mm lies on the path of the slider: its angle has no value there"
+        "the effector's pivot ({x}, {y}) mm lies on the path of the slider: the effector's angle is not defined there"
     )]
     PivotOnPath {
         /// X coordinate of the pivot, mm.
@@ -34,7 +34,7 @@ pub enum SixBarError {
         y: f64,
     },
     /// A number that is not finite.
-    #[error("{name} is {value}; it must be finite, and a length above zero")]
+    #[error("{name} is {value}; it must be finite, and above zero if it is a length")]
     Value {
         /// Name of the number.
         name: &'static str,

@@ -32,7 +32,7 @@ pub struct Fastening {
 pub enum FasteningError {
     /// No screw enters far enough.
     #[error(
-        "no screw M{diameter} of ISO 4762 fits: through a plate of {plate} mm it must enter by {minimum} mm from each side, and the plates are {between} mm apart"
+        "no screw M{diameter} of ISO 4762 fits: through a plate of {plate} mm its thread must engage at least {minimum} mm from each side, but the plates are {between} mm apart"
     )]
     TooShort {
         /// Nominal diameter, mm.
@@ -46,7 +46,7 @@ pub enum FasteningError {
     },
     /// Too few positions that are clear of all other parts.
     #[error(
-        "{found} places for screws M{diameter} clear of all that turns there, 3 are needed: around each a circle of {around} mm"
+        "only {found} of the 3 required positions for screws M{diameter} are clear of moving parts: each needs a free circle of {around} mm diameter"
     )]
     NoRoom {
         /// Nominal diameter, mm.
@@ -198,7 +198,7 @@ mod tests {
         let error = between(10.0).expect_err("too short");
         assert_eq!(
             error.to_string(),
-            "no screw M6 of ISO 4762 fits: through a plate of 6 mm it must enter by 6 mm from each side, and the plates are 10 mm apart"
+            "no screw M6 of ISO 4762 fits: through a plate of 6 mm its thread must engage at least 6 mm from each side, but the plates are 10 mm apart"
         );
     }
 }

@@ -88,14 +88,14 @@ fn outline(contour: Contour) -> Result<Outline, String> {
                 let coefficients: Vec<Vector> = coefficients.into_iter().map(Into::into).collect();
                 let coefficients = coefficients
                     .try_into()
-                    .map_err(|_| format!("a curve has 14 coefficients, not {count}"))?;
+                    .map_err(|_| format!("a curve must have 14 coefficients, not {count}"))?;
                 Segment::Poly(PolySegment::new(from.into(), to.into(), coefficients))
             }
         })
     };
     let segments: Vec<Segment> = contour.into_iter().map(edge).collect::<Result<_, _>>()?;
     if segments.is_empty() {
-        return Err("a contour has at least one segment".into());
+        return Err("a contour must have at least one segment".into());
     }
     Outline::new(segments).map_err(|e| e.to_string())
 }
@@ -191,7 +191,7 @@ impl<'de> Deserialize<'de> for Form {
                 let inside = |corner: &u32| (*corner as usize) < count;
                 if !faces.iter().flatten().all(inside) {
                     return Err(D::Error::custom(format!(
-                        "a face names a corner that is not among the {count}"
+                        "a face refers to a vertex that does not exist: there are {count}"
                     )));
                 }
                 Ok(Self::Mesh(Mesh { vertices, faces }, off))
@@ -342,7 +342,7 @@ pub(super) mod laws {
     ) -> Result<Arc<dyn Transmission>, D::Error> {
         let sound = |law: Piecewise| {
             let made: Option<Arc<dyn Transmission>> = law.is_sound().then(|| Arc::new(law) as _);
-            made.ok_or("pieces of a law follow each other from 0 to its period, all numbers finite")
+            made.ok_or("the pieces of a law must follow each other from 0 to its period, and all numbers must be finite")
         };
         read(deserializer, sound)
     }

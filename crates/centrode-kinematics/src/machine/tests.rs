@@ -168,25 +168,25 @@ fn what_does_not_hang_together_is_refused_by_name() {
     let cases: [(Change, &str); 12] = [
         (
             |m| m.points[0].link = 9,
-            "point \"tip\" names link 9, of which there are 4",
+            "point \"tip\" refers to link 9, but the number of such items is 4",
         ),
         (
             |m| m.joints[0].parent = 2,
-            "\"arm\" hangs from the first link by 0 chains",
+            "\"arm\" must be connected to the first link by exactly one chain of joints, not by 0",
         ),
         (
             |m| m.joints[1].child = 1,
-            "hangs from the first link by 2 chains",
+            "exactly one chain of joints, not by 2",
         ),
         (
             |m| m.input.period = f64::NAN,
-            "the period of the input is NaN",
+            "the period of the input must not be NaN",
         ),
         (
             |m| m.joints[0].turn[1] = f64::INFINITY,
-            "a number of the joint of \"arm\" is inf",
+            "a number of the joint of \"arm\" must not be inf",
         ),
-        (|m| m.gravity[1] = f64::NAN, "gravity is NaN"),
+        (|m| m.gravity[1] = f64::NAN, "gravity must not be NaN"),
         (
             |m| {
                 let at = [0.0; 3];
@@ -196,26 +196,26 @@ fn what_does_not_hang_together_is_refused_by_name() {
                     mass: -1.0,
                 });
             },
-            "a mass carried is -1",
+            "the mass of a load must not be -1",
         ),
         (
             |m| {
                 let effort = Quantity::joint(7);
                 m.loads.push(Load::Joint { joint: 0, effort });
             },
-            "a load names joint 7, of which there are 3",
+            "a load refers to joint 7, but the number of such items is 3",
         ),
         (
             |m| m.meshes.push(mesh(2.0)),
-            "the pressure angle of a mesh is 2",
+            "the pressure angle of a mesh must not be 2",
         ),
         (
             |m| m.guides.push(guide(f64::NAN, 0.1)),
-            "the radius of a guide is NaN",
+            "the radius of a guide must not be NaN",
         ),
         (
             |m| m.guides.push(guide(5.0, -0.1)),
-            "the friction of a guide is -0.1",
+            "the friction of a guide must not be -0.1",
         ),
         (
             |m| {
@@ -225,7 +225,7 @@ fn what_does_not_hang_together_is_refused_by_name() {
                     joints: [0, 5],
                 });
             },
-            "a closure names joint 5, of which there are 3",
+            "a closure refers to joint 5, but the number of such items is 3",
         ),
     ];
     for (change, expected) in cases {
@@ -304,15 +304,15 @@ fn parts_and_arrangement_name_only_what_is_there() {
     };
     assert_eq!(
         stated(&|machine| machine.parts[0].links.push(9)),
-        "part \"plate\" names link 9, of which there are 4"
+        "part \"plate\" refers to link 9, but the number of such items is 4"
     );
     assert_eq!(
         stated(&|machine| machine.parts[0].place = Some(place)),
-        "part \"plate\" names figure 3, of which there are 0"
+        "part \"plate\" refers to figure 3, but the number of such items is 0"
     );
     assert_eq!(
         stated(&|machine| machine.parts[0].mass = Some(-1.0)),
-        "the mass of the part \"plate\" is -1"
+        "the mass of the part \"plate\" must not be -1"
     );
     let dimension = Dimension {
         ends: [place; 2],
@@ -320,11 +320,11 @@ fn parts_and_arrangement_name_only_what_is_there() {
     };
     assert_eq!(
         stated(&|machine| machine.arrangement.dimensions.push(dimension)),
-        "the arrangement names figure 3, of which there are 0"
+        "the arrangement refers to figure 3, but the number of such items is 0"
     );
     assert_eq!(
         stated(&|machine| machine.arrangement.columns.push(1)),
-        "the arrangement names column 1, of which there are 0"
+        "the arrangement refers to column 1, but the number of such items is 0"
     );
 }
 

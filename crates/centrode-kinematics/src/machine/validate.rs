@@ -5,7 +5,7 @@ use super::{Arrangement, JointKind, LinePath, LinkedMachine, Load, Quantity, Sea
 #[non_exhaustive]
 pub enum LinkedMachineError {
     /// A reference to an item that does not exist.
-    #[error("{from} names {kind} {index}, of which there are {count}")]
+    #[error("{from} refers to {kind} {index}, but the number of such items is {count}")]
     Missing {
         /// Item that contains the reference.
         from: String,
@@ -17,7 +17,9 @@ pub enum LinkedMachineError {
         count: usize,
     },
     /// A link is not connected to the first link by exactly one chain of joints.
-    #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
+    #[error(
+        "link {link:?} must be connected to the first link by exactly one chain of joints, not by {ways}"
+    )]
     Tree {
         /// The link.
         link: String,
@@ -25,7 +27,7 @@ pub enum LinkedMachineError {
         ways: usize,
     },
     /// A number that is not permitted.
-    #[error("{what} is {value}")]
+    #[error("{what} must not be {value}")]
     Number {
         /// The number.
         what: String,
@@ -104,14 +106,14 @@ impl LinkedMachine {
         type Rule<'a> = &'a dyn Fn(&f64) -> bool;
         let mut all: Vec<(&str, &[f64], Rule<'_>)> = vec![("gravity", &self.gravity, &finite)];
         for load in &self.loads {
-            all.push(("a place of a load", load.numbers(), &finite));
+            all.push(("a number of a load", load.numbers(), &finite));
             if let Load::Mass { mass, .. } = load {
-                all.push(("a mass carried", std::slice::from_ref(mass), &positive));
+                all.push(("the mass of a load", std::slice::from_ref(mass), &positive));
             }
         }
         for body in self.links.iter().flat_map(|link| &link.mounted) {
-            all.push(("the place of a body", &body.at, &finite));
-            all.push(("the turn of a body", &body.turn, &finite));
+            all.push(("the position of a body", &body.at, &finite));
+            all.push(("the rotation of a body", &body.turn, &finite));
         }
         for mesh in &self.meshes {
             let angle = mesh.pressure_angle.as_slice();
@@ -119,13 +121,13 @@ impl LinkedMachine {
             all.push(("the axis of a gear", mesh.axes.as_flattened(), &finite));
             if let Some(pitch) = &mesh.pitch {
                 let zero = std::slice::from_ref(&pitch.zero);
-                all.push(("the zero of a mesh's pitch curves", zero, &finite));
+                all.push(("the zero angle of a mesh's pitch curves", zero, &finite));
             }
         }
         for contact in &self.contacts {
-            all.push(("a place of a contact", &contact.at, &finite));
+            all.push(("the position of a contact", &contact.at, &finite));
             let normal = contact.normal.as_ref().map_or(&[][..], |normal| normal);
-            all.push(("a normal of a contact", normal, &finite));
+            all.push(("the normal of a contact", normal, &finite));
         }
         for guide in &self.guides {
             let (radius, friction) = (&guide.radius, &guide.friction);

@@ -209,7 +209,7 @@ impl<F: Fn(f64) -> MotionJet + Send + Sync> Transmission for FromFn<F> {
 pub enum TransmissionError {
     /// One cycle of the driving motion is not one cycle of the driven motion.
     #[error(
-        "a cycle of the driving motion advances it by {advance}, but the driven one repeats after {period}"
+        "the driving motion advances by {advance} per cycle, but the driven motion has a period of {period}"
     )]
     Periods {
         /// Advance of the driving one in a period.
@@ -219,7 +219,7 @@ pub enum TransmissionError {
     },
     /// No number of cycles of the driving one is a whole number of cycles of the driven one.
     #[error(
-        "a cycle of the driving motion advances it by {advance}, and the driven one repeats after {period}: up to {most} cycles of the one are no whole number of the other"
+        "the driving motion advances by {advance} per cycle and the driven motion has a period of {period}: no number of driving cycles up to {most} gives a whole number of driven cycles"
     )]
     NoCommonCycle {
         /// Advance of the driving one in a period.

@@ -39,7 +39,7 @@ pub enum ArmError {
     Spec(#[from] SpecError),
     /// The clamp begins behind the planet's axis, or the housing's tube has no length.
     #[error(
-        "the clamp leaves the housing {front} mm before the planet's axis, behind the tube's rear end at {rear} mm: shorten the clamp ({clamp_length} mm)"
+        "the clamp leaves the housing {front} mm in front of the planet's axis, behind the rear end of the tube at {rear} mm: shorten the clamp ({clamp_length} mm)"
     )]
     NoTube {
         /// Middle of the tube's front end, mm.
@@ -51,7 +51,7 @@ pub enum ArmError {
     },
     /// The clamp is too high for the round front of the tube.
     #[error(
-        "a clamp {root_height} mm high at its root does not fit the housing's front: about {most:.3} mm would"
+        "a clamp {root_height} mm high at its root does not fit the front of the housing: at most about {most:.3} mm fits"
     )]
     ClampTooHigh {
         /// Height at the root, mm.
@@ -73,7 +73,7 @@ pub enum ArmError {
     },
     /// The push rod's bore does not go through the round front of the tube.
     #[error(
-        "the push rod's bore, {bore} mm wide, does not leave the housing through the round front of its tube, {tube_radius} mm in radius: enlarge housing.tube_radius or shrink push_rod.diameter"
+        "the push rod's bore of {bore} mm does not fit through the round front of the tube, whose radius is {tube_radius} mm: increase housing.tube_radius or reduce push_rod.diameter"
     )]
     NoBore {
         /// Width of the bore, mm.

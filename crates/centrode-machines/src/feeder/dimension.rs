@@ -28,7 +28,7 @@ pub enum Dimension {
 
 /// A word that names no dimension.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
-#[error("`{0}` is no dimension: they are crank, coupler, rocker, frame, pivot_x and pivot_y")]
+#[error("`{0}` is not a dimension; known are crank, coupler, rocker, frame, pivot_x and pivot_y")]
 pub struct UnknownDimension(pub String);
 
 impl Dimension {

@@ -35,7 +35,7 @@ pub enum FeederError {
     },
     /// The slider comes so close to the effector's pivot that its slot meets the pivot's hole.
     #[error(
-        "the slot for the slider would begin {start:.4} mm from the effector's pivot, whose hole has a radius of {radius} mm: take a shorter slider or a thinner pin, or move the pivot away from the slider's path"
+        "the slot for the slider would start {start:.4} mm from the effector's pivot, whose hole has a radius of {radius} mm: use a shorter slider or a thinner pin, or move the pivot away from the slider's path"
     )]
     SlotMeetsPivot {
         /// Distance of the slot's start from the pivot, mm.
@@ -45,7 +45,7 @@ pub enum FeederError {
     },
     /// Two holes of a plate overlap.
     #[error(
-        "holes {} and {} of the {part} meet: {distance:.4} mm apart, reaching {reach:.4} mm together",
+        "holes {} and {} of the {part} overlap: their axes are {distance:.4} mm apart, but the holes need {reach:.4} mm",
         joints[0],
         joints[1]
     )]

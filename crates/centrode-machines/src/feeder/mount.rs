@@ -131,7 +131,8 @@ impl Feeder {
             };
             let joint = machine.joint(joint);
             if link == driver {
-                let meaning = "intermittent gear against the frame, counter-clockwise";
+                let meaning =
+                    "angle of the intermittent gear relative to the frame, counter-clockwise";
                 let name = "gear_driver_joint_rad";
                 machine.column(name, "rad", meaning, Quantity::joint(joint));
             }

@@ -51,7 +51,7 @@ impl DimensionSearchSpec {
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         not_negative("pivot_weight_deg", self.pivot_weight)?;
         if self.free_pivot && self.pivot_weight <= 0.0 {
-            let why = "above zero where the pivot is free: lengths of any size have places of the pivot with the required swing, half a turn all along the chord between the slider's dead centres, so that the swing alone says nothing of the lengths";
+            let why = "above zero if the pivot is free: for lengths of any size some pivot gives the required swing, 180 deg everywhere on the chord between the slider's dead centres, so the swing alone does not determine the lengths";
             return broken("pivot_weight_deg", Rule::Needed(why));
         }
         positive("pivot_room", self.pivot_room)?;

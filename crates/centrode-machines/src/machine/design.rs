@@ -139,7 +139,10 @@ impl DesignSpec for MachineDesign {
     fn rules(&self) -> Result<(), SpecError> {
         self.validate()?;
         if self.bodies.is_empty() && self.dyads.is_empty() {
-            return broken("bodies", Rule::Needed("next to the frame, at least one"));
+            return broken(
+                "bodies",
+                Rule::Needed("with at least one body apart from the frame"),
+            );
         }
         self.check_sizes()
     }

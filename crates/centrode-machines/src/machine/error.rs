@@ -57,7 +57,7 @@ pub enum MachineError {
         point: String,
     },
     /// A body that cannot drive another by its turn.
-    #[error("body {body:?} does not turn on a pin: only a body that does can replace the input")]
+    #[error("body {body:?} does not turn on a pin: only a body on a pin can replace the input")]
     NoTurn {
         /// Key that names it.
         key: String,
@@ -65,7 +65,7 @@ pub enum MachineError {
         body: String,
     },
     /// A body that is driven or tied twice.
-    #[error("body {body:?} is held already by {by}: it can be held by one of them only")]
+    #[error("body {body:?} is already held by {by}: only one of the two can hold it")]
     HeldTwice {
         /// Key that holds it the second time.
         key: String,
@@ -75,9 +75,7 @@ pub enum MachineError {
         by: String,
     },
     /// A body that nothing holds.
-    #[error(
-        "body {body:?} is held by nothing: give it on and law, or fixed_to, or name it in a dyad"
-    )]
+    #[error("nothing holds body {body:?}: give it on and law, or fixed_to, or name it in a dyad")]
     Loose {
         /// The body.
         body: String,
@@ -145,7 +143,7 @@ pub enum MachineError {
         error: CamError,
     },
     /// An error of a copy that the original does not have.
-    #[error("of a copy: {error}")]
+    #[error("in a copy: {error}")]
     Copy {
         /// Key of the original.
         key: String,
@@ -226,7 +224,7 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
         found.open.is_empty(),
     ) {
         (true, _) => format!("dyad {name:?} has {change}"),
-        (_, true) => format!("dyad {name:?} closes nowhere: {missing}"),
+        (_, true) => format!("dyad {name:?} closes at no input: {missing}"),
         _ if change.is_empty() => {
             format!("dyad {name:?} closes only for inputs of {ranges} deg: {missing}")
         }
@@ -239,11 +237,8 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
 /// Message about names that depend on each other.
 fn ring(names: &[String]) -> String {
     match names {
-        [one] => format!("{one} is held by itself"),
-        _ => format!(
-            "{} wait for each other: each needs another one to be placed",
-            names.join(", ")
-        ),
+        [one] => format!("the position of {one} depends on itself"),
+        _ => format!("the positions of {} depend on each other", names.join(", ")),
     }
 }
 

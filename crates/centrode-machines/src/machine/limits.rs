@@ -63,7 +63,7 @@ impl MachineDesign {
             let table = key.split('.').next().unwrap_or_default();
             if REQUIRED.contains(&table) || key == "input.turns" {
                 return Err(refused(
-                    "says what is required: a search moves numbers of the machine alone".into(),
+                    "is a requirement: a search varies only numbers of the machine".into(),
                 ));
             }
             let numbered = Design::numbered(self, key);
@@ -108,7 +108,9 @@ impl Machine {
                 ));
             }
             if DEVICES.contains(&small.as_str()) || small.starts_with('-') {
-                return refused("is no name for a file: give the part another one".into());
+                return refused(
+                    "is not allowed as the name of a file: give the part another name".into(),
+                );
             }
             if let Some(other) = taken.insert(small, key.clone()) {
                 return refused(one_name(key, &other));
@@ -126,7 +128,7 @@ impl Machine {
 }
 
 fn one_name(key: &str, other: &str) -> String {
-    format!("the files of {key} and {other} would have one name: give one of them another")
+    format!("the files of {key} and {other} would have the same name: give one of them another")
 }
 
 /// The name of the part whose drawing sheet could have this name: `a` for `a-sheet` and `a-sheet-2`.

@@ -67,7 +67,7 @@ impl Machine {
             loads: self.loads.iter().flat_map(MachineLoad::parts).collect(),
             ..LinkedMachine::default()
         };
-        machine.input_columns("angle the driving shaft has turned by");
+        machine.input_columns("angle of the driving shaft");
         for (index, body) in self.bodies.iter().enumerate() {
             self.add_link(&mut machine, index, &pieces[index]);
             if let Some(mount) = &body.mount {
@@ -294,7 +294,7 @@ impl Machine {
         let carrier = &self.bodies[carrier].name;
         let (unit, meaning) = match mount.kind {
             JointKind::Fixed => return,
-            JointKind::Turning => ("rad", format!("angle of {name} against {carrier}")),
+            JointKind::Turning => ("rad", format!("angle of {name} relative to {carrier}")),
             JointKind::Sliding(_) => ("mm", format!("position of {name} along {carrier}")),
         };
         let column = format!("{}_joint_{unit}", name.replace('-', "_"));

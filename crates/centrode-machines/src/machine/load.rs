@@ -101,7 +101,7 @@ impl MachineLoadSpec {
         };
         let length = (to - from).rem_euclid(period);
         if length == 0.0 {
-            let why = "the arc must end at another input than it begins; without it, the load acts always";
+            let why = "the arc must end at another input than it starts at; omit it for a load that always acts";
             return Err(wrong("over_deg", why.into()));
         }
         breaks.extend([from, to].map(|end| end.rem_euclid(period)));

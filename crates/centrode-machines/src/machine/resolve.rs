@@ -179,7 +179,7 @@ impl<'a> Builder<'a> {
             let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
             if matches!(figure, MachineFigure::Clearance(_)) && goal.over != Some(Over::Minimum) {
                 let key = format!("goals.{name}.over");
-                let rule = Rule::Needed("as minimum for a clearance");
+                let rule = Rule::Needed("with the word minimum for a clearance");
                 return Err(SpecError { key, rule }.into());
             }
             Ok(figure)

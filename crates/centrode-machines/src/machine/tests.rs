@@ -83,7 +83,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "on = \"frame.O\"",
             "on = \"crank.A\"",
-            "bodies.crank.on: body crank is held by itself",
+            "bodies.crank.on: the position of body crank depends on itself",
         ),
         (
             "on = \"frame.O\"",
@@ -108,7 +108,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "on = \"frame.O\"",
             "on = \"shin.foot\"",
-            "wait for each other",
+            "depend on each other",
         ),
         (
             "law = { ratio = 1 }",
@@ -118,7 +118,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "law = { ratio = 1 }",
             "law = { expression = \"phi^2\" }",
-            "bodies.crank.law.expression: its rate is",
+            "bodies.crank.law.expression: its first derivative is",
         ),
         (
             "law = { ratio = 1 }",
@@ -148,12 +148,12 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "law = { ratio = 1 }",
             "law = { table = [1, 2] }",
-            "bodies.crank.law.table: has no meaning but for a body that slides",
+            "bodies.crank.law.table: has no meaning except for a body that slides",
         ),
         (
             "law = { ratio = 1 }",
             "law = { ratio = 1, by = \"thigh\" }",
-            "wait for each other",
+            "depend on each other",
         ),
         (
             "law = { ratio = 1 }",
@@ -163,17 +163,17 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "law = { ratio = 1 }",
             "law = { start_deg = 1, by = \"thigh\" }",
-            "bodies.crank.law.by: has no meaning but for a law that moves",
+            "bodies.crank.law.by: has no meaning except for a law that moves",
         ),
         (
             "law = { ratio = 1 }",
             "law = { traverse = { lead = 20, holes = 14 } }",
-            "bodies.crank.law.traverse: has no meaning but for a body that slides",
+            "bodies.crank.law.traverse: has no meaning except for a body that slides",
         ),
         (
             "law = { ratio = 1 }",
             "law = { intermittent = { driver_pitches = 30, driven_pitches = 30, teeth = 30 } }",
-            "bodies.crank.law.intermittent: 30 teeth and the entry and exit take",
+            "bodies.crank.law.intermittent: 30 teeth with entry and exit take",
         ),
         (
             "law = { ratio = 1 }",
@@ -198,17 +198,17 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "[bodies.crank]",
             "[bodies.idle]\n[bodies.crank]",
-            "bodies.idle: body \"idle\" is held by nothing",
+            "bodies.idle: nothing holds body \"idle\"",
         ),
         (
             "\"upper-rod\", \"thigh\"",
             "\"upper-rod\", \"crank\"",
-            "body \"crank\" is held already by bodies.crank.on",
+            "body \"crank\" is already held by bodies.crank.on",
         ),
         (
             "\"upper-rod\", \"thigh\"",
             "\"upper-rod\", \"frame\"",
-            "body \"frame\" is held already by frame",
+            "body \"frame\" is already held by frame",
         ),
         (
             "lengths = [50, 41.5]",
@@ -218,7 +218,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "lengths = [50, 41.5]",
             "lengths = [500, 41.5]",
-            "dyads.knee: dyad \"knee\" closes nowhere: at",
+            "dyads.knee: dyad \"knee\" closes at no input: at",
         ),
         (
             "lengths = [50, 41.5]",
@@ -400,7 +400,7 @@ fn change_points_and_gaps_are_reported_with_the_digits_that_matter() {
             [40.0, 1.0, 2.0, 100.0],
             0.0,
             String::new(),
-            vec!["closes nowhere: at 180 deg 137 mm are missing".into()],
+            vec!["closes at no input: at 180 deg 137 mm are missing".into()],
         ),
         (
             [40.0, 80.0, 60.0, 100.0],
@@ -460,7 +460,7 @@ fn guides_that_become_parallel_are_named_as_such() {
         (
             "ratio = 1",
             yoke,
-            "dyad \"slides\" closes nowhere: at 0 deg its guides are parallel",
+            "dyad \"slides\" closes at no input: at 0 deg its guides are parallel",
         ),
     ] {
         let found = refused(&text(law, dyad));

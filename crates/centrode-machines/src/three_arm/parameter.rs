@@ -44,7 +44,7 @@ pub enum Parameter {
 /// Error of a word that does not name a parameter.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[error(
-    "`{0}` is no parameter: they are r1, r2, ..., theta1, theta2, ..., carrier_start, bend, mounting_angle, tip_distance, pusher_offset, planet_reference, picking and planting"
+    "`{0}` is not a parameter; known are r1, r2, ..., theta1, theta2, ..., carrier_start, bend, mounting_angle, tip_distance, pusher_offset, planet_reference, picking and planting"
 )]
 pub struct UnknownParameter(pub String);
 

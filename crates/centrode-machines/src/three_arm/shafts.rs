@@ -78,9 +78,8 @@ impl ThreeArm {
             [behind, front[1]],
             [0.0, design.gearbox.clearance],
         )?;
-        made.part.notes = vec![
-            "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
-        ];
+        made.part.notes =
+            vec!["Fixed at its free end, to be cut to length. The carrier turns about it.".into()];
         Some(made)
     }
 
@@ -164,7 +163,7 @@ impl ThreeArm {
             density: stock.density,
             heat_treatment: stock.heat_treatment.into(),
             notes: vec![
-                "Thin end pressed into the rod; the wide one runs in the fork's slot.".into(),
+                "Thin end pressed into the rod. The wide end runs in the fork's slot.".into(),
             ],
         };
         let at = [

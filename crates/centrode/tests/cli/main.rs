@@ -133,7 +133,7 @@ fn new_shafts_and_boxes_check_and_export() {
             "spiral-shaft",
             "moves while picking                   2.0500  mm",
         ),
-        ("moving-box", "the gears alone"),
+        ("moving-box", "gears only"),
     ] {
         let new = centrode(&["new", family]);
         assert_eq!(new.status.code(), Some(0));
@@ -168,10 +168,10 @@ fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
     let report = report.join(" ");
     for line in [
         "minimum transmission angle: 8.2243 deg, missed by 31.7757 deg",
-        "no lengths within the bounds reach more than 12.312 deg",
-        "widened by 22.443 %",
+        "the maximum found within the bounds is 12.312 deg",
+        "widen them by 22.443 %",
         "time 3.0093 1.3407 1.0500 s",
-        "cuttings a minute 55.5556 1/min at least 55",
+        "cuttings per minute 55.5556 1/min at least 55",
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }

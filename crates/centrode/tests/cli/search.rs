@@ -347,8 +347,8 @@ fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
     let (code, stated) = words(&published, &file("best.toml"));
     assert_eq!(code, Some(1), "{stated}");
     for line in [
-        "infeasible: no lengths within the bounds reach more than 12.312 deg",
-        "must be widened by 22.443 %",
+        "infeasible: the maximum found within the bounds is 12.312 deg",
+        "widen them by 22.443 %",
     ] {
         assert!(stated.contains(line), "{line} in {stated}");
     }

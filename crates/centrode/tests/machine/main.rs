@@ -292,9 +292,9 @@ fn shafts_and_pins_without_a_shape_a_place_or_a_body_are_refused() {
         change(mounted.next().expect("a pin"));
         machine.validate().expect_err("refused").to_string()
     };
-    assert!(refused(&|body| body.shape = 999).contains("names shape 999"));
-    assert!(refused(&|body| body.at[1] = f64::NAN).contains("the place of a body"));
-    assert!(refused(&|body| body.turn[2] = f64::INFINITY).contains("the turn of a body"));
+    assert!(refused(&|body| body.shape = 999).contains("refers to shape 999"));
+    assert!(refused(&|body| body.at[1] = f64::NAN).contains("the position of a body"));
+    assert!(refused(&|body| body.turn[2] = f64::INFINITY).contains("the rotation of a body"));
     let mut bare = machine;
     for shape in &mut bare.shapes {
         if let Form::Turned(part) = &mut shape.form {
@@ -317,7 +317,7 @@ fn a_plain_file_of_another_kind_or_cut_short_is_refused() {
     assert!(refused(&text.replace("\"version\":1", "\"version\":9")).contains("version 9"));
     let lost = text.replacen("\"parent\":0", "\"parent\":99", 1);
     assert!(
-        refused(&lost).contains("joint 0 names link 99"),
+        refused(&lost).contains("joint 0 refers to link 99"),
         "{}",
         refused(&lost)
     );

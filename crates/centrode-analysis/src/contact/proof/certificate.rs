@@ -96,7 +96,7 @@ pub enum ProofError {
     Design(#[from] DesignError),
     /// Nothing holds the driven gear.
     #[error(
-        "the gears do not hold each other at the driver angle {phi:.6} rad: nothing can be proved of a mesh that has come apart"
+        "the gears lose contact at the driver angle {phi:.6} rad: a mesh without contact cannot be certified"
     )]
     Apart {
         /// Driver angle, rad.
@@ -104,7 +104,7 @@ pub enum ProofError {
     },
     /// The gears have no room for each other.
     #[error(
-        "at the driver angle {phi:.6} rad the gears penetrate each other at every angle of the driven gear: pushed on, it would be {overlap:.3e} rad beyond its angle when pushed back; take more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
+        "at the driver angle {phi:.6} rad the gears interfere at every angle of the driven gear: {overlap:.3e} rad of backlash is missing; use more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
     )]
     NoRoom {
         /// Driver angle, rad.
@@ -122,14 +122,14 @@ pub enum ProofError {
     },
     /// A seat jumps: teeth meet within the backlash.
     #[error(
-        "at the driver angle {phi:.6} rad tooth {} of the driver meets tooth {} of the driven gear at ({:.4}, {:.4}) mm within the backlash, \
-        {turn:.3e} rad from where the driven gear stands pushed {side}, so it is not held at every angle: take a pitch curve of \
+        "at the driver angle {phi:.6} rad driver tooth {} hits driven tooth {} at ({:.4}, {:.4}) mm within the backlash, \
+        {turn:.3e} rad from the contact position of the driven gear pushed {side}, so that this position jumps: use a pitch curve of \
         gentler curvature, or more teeth of a smaller module", .teeth.0, .teeth.1, .point.x, .point.y
     )]
     Step {
         /// Driver angle, rad.
         phi: f64,
-        /// Direction in which the driven gear is pushed: `on` or `back`.
+        /// Direction in which the driven gear is pushed: `forward` or `back`.
         side: &'static str,
         /// Rotation of the driven gear from its seat to the position in which the teeth meet, rad.
         turn: f64,
@@ -139,7 +139,7 @@ pub enum ProofError {
         point: Point,
     },
     /// A contour has a piece that is not a polynomial.
-    #[error("piece {piece} of the {}'s contour is an arc, the proof knows polynomials alone", .member.name())]
+    #[error("piece {piece} of the {}'s contour is an arc, but the proof supports polynomials only", .member.name())]
     Arc {
         /// The gear.
         member: Member,

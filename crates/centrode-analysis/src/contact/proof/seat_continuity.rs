@@ -44,7 +44,7 @@ impl Prover<'_> {
         ProofError::Step {
             phi,
             side: match side {
-                Side::On => "on",
+                Side::On => "forward",
                 Side::Back => "back",
             },
             turn,

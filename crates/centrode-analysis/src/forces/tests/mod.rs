@@ -168,7 +168,7 @@ fn what_has_no_single_answer_is_refused_by_name() {
     });
     let stated = refused(twice);
     for words in [
-        "wheel is held",
+        "wheel is driven by both",
         "the mesh of pinion and wheel and the mesh of idler and wheel",
     ] {
         assert!(stated.contains(words), "{stated}");
@@ -187,7 +187,7 @@ fn what_has_no_single_answer_is_refused_by_name() {
     ring.meshes.clear();
     ring.joints[0].leader = Some(1);
     ring.joints[1].leader = Some(0);
-    assert!(refused(ring).contains("the lead of"));
+    assert!(refused(ring).contains("the leading joint"));
     // Stretched, the rod passes no torque: the piston cannot be driven from the crank's side by any force.
     let mut dead = slider_crank(1.0);
     dead.closures[0].joints = [0, 1];

@@ -159,7 +159,7 @@ fn quick_returns_whitworths_and_yokes_have_an_order_of_layers_at_every_scale() {
         let whitworth = composed(&cranked(scale, 0.4 * scale, LEVER));
         let report = check_machine(&whitworth);
         assert!(!report.ok());
-        let order = "with layers crank -2, lever 0 nothing collides";
+        let order = "with layers crank -2, lever 0 there are no collisions";
         assert_eq!(finding(&report, "layer-order").as_deref(), Some(order));
         let (words, design) = machine_layers(&whitworth).expect("layers");
         assert_eq!(words, "layers crank -2, lever 0");
@@ -175,7 +175,7 @@ fn layers_that_are_given_stay_and_pins_that_no_order_helps_are_named() {
     let found = order(&drag).expect("they collide");
     assert_eq!(
         found,
-        "with layers crank -2, coupler 0, rocker 1 nothing collides"
+        "with layers crank -2, coupler 0, rocker 1 there are no collisions"
     );
     let given = order(&format!("{drag}[bodies.rocker]\nlayer = 4\n")).expect("they collide");
     assert!(!given.contains("rocker"), "{given}");

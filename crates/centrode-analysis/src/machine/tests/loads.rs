@@ -157,7 +157,7 @@ fn loads_that_cannot_be_are_told_by_key() {
         (
             "on = \"ram\"\ntorque = 1\nover_deg = [30, 390]",
             "loads.work.over_deg",
-            "must end at another input than it begins",
+            "must end at another input than it starts at",
         ),
     ] {
         let text = SLIDER_CRANK.replace("GRAVITY", "").replace("CRANK", "");

@@ -264,7 +264,7 @@ fn a_changing_load_has_no_copies_about_a_body_that_turns_unevenly() {
     assert!(
         error
             .to_string()
-            .contains("a load that changes with the input"),
+            .contains("load work, which changes with the input, cannot be copied"),
         "{error}"
     );
 }

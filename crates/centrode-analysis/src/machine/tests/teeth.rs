@@ -76,7 +76,7 @@ fn pairs_and_figures_of_pairs_that_are_not_there_are_told() {
     for (words, stated) in [
         (
             "pair(gear).contact_ratio_mean",
-            "no gears of a pair gear; there are some of drive",
+            "no gears use a pair gear; pairs in use are drive",
         ),
         (
             "pair(drive).beauty",

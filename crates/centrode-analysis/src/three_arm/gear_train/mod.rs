@@ -162,13 +162,10 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     Finding::new(
         "gears-collide",
         Severity::of_overlap(-found.minimum),
-        format!(
-            "{} and {} run into each other",
-            minimum.pair[0], minimum.pair[1]
-        ),
+        format!("{} and {} collide", minimum.pair[0], minimum.pair[1]),
     )
     .measured(found.minimum, 0.0, Unit::Millimetre)
-    .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller maximum radius")
+    .remedy("a smaller bend, fewer arms, or a pitch curve with a smaller maximum radius")
     .on("gears")
     .at(found.input)
     .add_to(report);

@@ -77,7 +77,7 @@ pub enum MotionError {
     },
     /// Rise and return differ.
     #[error(
-        "the follower rises by {} and returns by {}: a cycle must end where it began",
+        "the follower rises by {} and returns by {}: a cycle must end where it started",
         stroke(*.rise, *.swings), stroke(*.fall, *.swings)
     )]
     Open {

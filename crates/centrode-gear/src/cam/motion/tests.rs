@@ -162,7 +162,7 @@ fn cycles_that_do_not_close_are_refused() {
     ];
     let error = Motion::resolve(&spec(segments)).map(|_| ());
     let stated =
-        "the follower rises by 12 deg and returns by 11 deg: a cycle must end where it began";
+        "the follower rises by 12 deg and returns by 11 deg: a cycle must end where it started";
     assert_eq!(error.expect_err("refused").to_string(), stated);
     let error = Motion::resolve(&spec(vec![rise, fall(-1.0, 4.0)])).map(|_| ());
     assert_eq!(error.expect_err("refused").key(), "segments.1.span_deg");

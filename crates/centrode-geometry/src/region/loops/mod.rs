@@ -16,10 +16,10 @@ const MAX_PASSES: u32 = 16;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LoopError {
     /// Every point of the chain lies in a loop.
-    #[error("every part of its contour lies in a loop")]
+    #[error("nothing of its contour remains after its loops are cut off")]
     Everywhere,
     /// The crossings of two segments, or of one with itself, cannot be determined.
-    #[error("where segments {} and {} of its contour cross cannot be decided: {cause}", .segments[0], .segments[1])]
+    #[error("the crossings of segments {} and {} of its contour cannot be determined: {cause}", .segments[0], .segments[1])]
     Unresolved {
         /// The segments, counted from 0.
         segments: [usize; 2],
@@ -33,7 +33,7 @@ pub enum LoopError {
         segments: [usize; 2],
     },
     /// The crossings contradict each other: one of them was not found.
-    #[error("its contour crosses itself at segments {} and {} in a way that does not fit the other crossings", .segments[0], .segments[1])]
+    #[error("the crossing of segments {} and {} of its contour contradicts its other crossings", .segments[0], .segments[1])]
     Inconsistent {
         /// Two segments that cross, counted from 0.
         segments: [usize; 2],

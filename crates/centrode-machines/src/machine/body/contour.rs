@@ -61,7 +61,7 @@ impl TryFrom<Vec<f64>> for MachineCornerSpec {
             }),
             [x, y, bulge] => Ok(Self { at: [x, y], bulge }),
             _ => Err(format!(
-                "a corner is x and y, or x, y and the bulge of the side that begins there, not {} numbers",
+                "a corner is x and y, or x, y and the bulge of the side that starts there, not {} numbers",
                 numbers.len()
             )),
         }
@@ -75,7 +75,7 @@ impl JsonSchema for MachineCornerSpec {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "A corner: x and y in mm, and, where an arc begins there, its bulge: the tangent of a quarter of its angle, counter-clockwise positive, as in a DXF polyline.",
+            "description": "A corner: x and y in mm, and optionally the bulge of the arc that starts there. The bulge is the tangent of a quarter of the arc's angle, counter-clockwise positive, as in a DXF polyline.",
             "type": "array",
             "items": { "type": "number" },
             "minItems": 2,

@@ -88,7 +88,7 @@ impl MachineBodySpec {
         if self.on.is_some() && self.law.is_none() && self.mesh.is_none() {
             return broken(
                 "law",
-                Rule::Needed("for a body that turns or slides, or a mesh"),
+                Rule::Needed("for a body that turns or slides without a mesh"),
             );
         }
         if self.on.is_none() && self.mesh.is_some() {
@@ -103,7 +103,7 @@ impl MachineBodySpec {
         if self.fixed_to.is_none() && self.turned.is_some() {
             return broken(
                 "turned_deg",
-                Rule::Unused("but for a body that is fixed_to another"),
+                Rule::Unused("except for a body that is fixed_to another"),
             );
         }
         for (key, angle) in [("slides_deg", self.slides), ("turned_deg", self.turned)] {
@@ -137,7 +137,7 @@ impl MachineBodySpec {
             }
         }
         if self.width.is_some() && drawn.is_given() {
-            return broken("width", Rule::Unused("but for a plate round points"));
+            return broken("width", Rule::Unused("except for a plate round points"));
         }
         for (key, value) in [("width", self.width), ("thickness", self.thickness)] {
             positive(key, value.unwrap_or(1.0))?;

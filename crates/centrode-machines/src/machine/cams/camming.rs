@@ -205,16 +205,16 @@ impl Builder<'_> {
             let off = (own - other).abs() > COMPUTED * own.abs().max(other.abs());
             if off || disc.rotation() != rotation {
                 let why = match off {
-                    true => format!("is held {own} mm from the axis of cam {cam}"),
-                    false => format!("sees cam {cam} turn in the opposite direction"),
+                    true => format!("body {name} is {own} mm from the axis of cam {cam}"),
+                    false => format!("relative to body {name} cam {cam} turns"),
                 };
                 let first = &made.followers[0];
                 let but = if off {
-                    format!(", but {first} {other} mm")
+                    format!(", but body {first} is at {other} mm")
                 } else {
-                    format!(" than {first} does")
+                    format!(" opposite to its direction relative to {first}")
                 };
-                let why = format!("body {name} {why}{but}: one profile cannot move both");
+                let why = format!("{why}{but}: one profile cannot move both");
                 return wrong(&format!("bodies.{name}.law.follows"), why);
             }
             return Ok(Arc::clone(&made.part));
@@ -225,7 +225,9 @@ impl Builder<'_> {
         };
         let Some(motion) = &spec.motion else {
             let other = spec.cut_to.as_deref().unwrap_or_default();
-            let why = format!("cam {cam} is cut to the motion of body {other}, and moves no other");
+            let why = format!(
+                "cam {cam} is cut to the motion of body {other}, and can move no other body"
+            );
             return wrong(&format!("bodies.{name}.law.follows"), why);
         };
         let motion = Motion::resolve(motion).map_err(|error| blame(error.into()))?;
@@ -240,11 +242,11 @@ impl Builder<'_> {
             let gear = self.gears.iter().any(|gear| gear.name == *name);
             let why = if gear || self.points.contains_key(name) {
                 let what = if gear { "gear" } else { "body" };
-                format!("a {what} is named {name}, too: their files would be one")
+                format!("there is also a {what} named {name}: their files would have the same name")
             } else if self.cams.contains_key(name) {
                 continue;
             } else {
-                format!("no body follows cam {name}: give one law = {{ follows = {name:?} }}")
+                format!("no body follows cam {name}: give a body law = {{ follows = {name:?} }}")
             };
             return wrong(&format!("cams.{name}"), why);
         }

@@ -124,7 +124,7 @@ impl Builder<'_> {
         let turned = (law.at(period).position - law.at(0.0).position) / TAU;
         if turned.abs() > 0.5 && mount.kind == JointKind::Turning {
             let why = format!(
-                "body {body} makes {turned:.6} turns on {} in a period: what follows a cam comes back",
+                "body {body} makes {turned:.6} turns on {} in a period: the follower of a cam must return",
                 self.bodies[mount.carrier].name
             );
             return wrong(key, why);
@@ -136,7 +136,7 @@ impl Builder<'_> {
         let [low, high] = extremes(|input| sense * law.at(input).position, &ends);
         let stroke = high.value - low.value;
         if stroke <= COMPUTED {
-            let why = format!("body {body} is fixed: there is no cam to cut");
+            let why = format!("body {body} does not move: there is no cam to cut");
             return wrong(key, why);
         }
         let rate = maximum(|input| law.at(input).velocity.abs(), &ends).value;
@@ -150,13 +150,13 @@ impl Builder<'_> {
             let degrees = at.to_degrees();
             if gap.abs() > passed + JUMP * stroke {
                 let why = format!(
-                    "body {body} jumps by {gap:.9} (mm or rad) at an input of {degrees:.4} deg: no cam can do that"
+                    "body {body} jumps by {gap:.9} (mm or rad) at an input of {degrees:.4} deg: no cam can make this motion"
                 );
                 return wrong(key, why);
             }
             if jump.abs() > curved + JUMP * rate {
                 let why = format!(
-                    "the speed of body {body} jumps from {:.9} to {:.9} per radian of the input at {degrees:.4} deg: no cam can do that",
+                    "the speed of body {body} jumps from {:.9} to {:.9} per radian of the input at {degrees:.4} deg: no cam can make this motion",
                     before.velocity, after.velocity
                 );
                 return wrong(key, why);
@@ -187,7 +187,7 @@ impl Moved<'_> {
         let (cam, body) = (self.cam, self.body);
         if turns == 0.0 {
             let why = format!(
-                "cam {cam} makes no whole turn against body {carrier}, on which {body} follows it"
+                "cam {cam} makes no whole turn relative to body {carrier}, which carries its follower {body}"
             );
             return wrong(key, why);
         }
@@ -198,7 +198,7 @@ impl Moved<'_> {
             Ok(inverse) => inverse,
             Err(TransmissionError::StandsStill { input, velocity }) => {
                 let why = format!(
-                    "cam {cam} must turn in one direction against body {carrier}, on which {body} follows it, but at an input of {:.4} deg it turns with {velocity:.6} of the input's speed",
+                    "cam {cam} must turn in one direction relative to body {carrier}, which carries its follower {body}, but at an input of {:.4} deg it turns at {velocity:.6} times the speed of the input",
                     input.to_degrees()
                 );
                 return wrong(key, why);
@@ -226,7 +226,7 @@ impl Moved<'_> {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);
                 let why = format!(
-                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier} ({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
+                    "the motion of body {body} does not repeat with every turn of cam {cam} relative to body {carrier} ({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
                     first.to_degrees(),
                     then.to_degrees(),
                     off.value

@@ -93,7 +93,7 @@ impl Builder<'_> {
             let [own, other] = [&words[usize::from(!swings)], &words[usize::from(swings)]];
             return wrong(
                 key,
-                format!("cam {cam} has a follower on {other}, not on {own}"),
+                format!("the follower of cam {cam} needs {other}, not {own}"),
             );
         }
         let still = SAME * spec.base_radius;
@@ -102,17 +102,20 @@ impl Builder<'_> {
             let key = format!("{cam_key}.about");
             let there = self.place(&key, about)?;
             let Some(found) = self.axis_on(point.body, there, still) else {
-                let why = format!("{about} moves on body {}", self.bodies[point.body].name);
+                let why = format!(
+                    "{about} moves relative to body {}",
+                    self.bodies[point.body].name
+                );
                 return wrong(
                     &key,
-                    format!("{why}, on which cam {cam} is mounted about it"),
+                    format!("{why}: cam {cam} on this body cannot be mounted about it"),
                 );
             };
             point.at = found;
         }
         let Some(axis) = self.axis_on(pin.body, point, still) else {
             let why = format!(
-                "the axis of cam {cam} moves on body {}, which must carry it",
+                "the axis of cam {cam} must be fixed on body {}, but moves relative to it",
                 self.bodies[pin.body].name
             );
             return wrong(key, why);
@@ -129,7 +132,7 @@ impl Builder<'_> {
         if let Some(written) = written
             && (written - distance).abs() > COMPUTED * distance.abs().max(written.abs())
         {
-            let why = format!("is {written} mm, but body {name} is held at {distance} mm");
+            let why = format!("is {written} mm, but body {name} is at {distance} mm");
             return wrong(&format!("{cam_key}.follower.{what}"), why);
         }
         Ok(Seat {
@@ -162,7 +165,7 @@ impl Builder<'_> {
         let turns = (turn.at(period).position - turn.at(0.0).position) / TAU;
         if (turns - turns.round()).abs() > COMPUTED {
             let why = format!(
-                "cam {cam} makes {turns:.9} turns against body {carrier} in the period of {} turns of the input, which must be a whole number: set input.turns",
+                "cam {cam} makes {turns:.9} turns relative to body {carrier} in the period of {} turns of the input. This must be a whole number: set input.turns",
                 self.design.input.turns
             );
             return wrong(key, why);
@@ -177,7 +180,7 @@ impl Builder<'_> {
         // The extremes are only computed if the cam is at rest at all ends of the parts, which is rare.
         if parts.iter().all(|input| rate(*input).abs() <= COMPUTED) && stands() {
             let why = format!(
-                "cam {cam} does not turn against body {carrier}, on which {name} follows it"
+                "cam {cam} does not turn relative to body {carrier}, which carries its follower {name}"
             );
             return wrong(key, why);
         }
@@ -186,7 +189,7 @@ impl Builder<'_> {
             (None, _) => Turn::CounterClockwise,
             (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
                 let why = format!(
-                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns in the opposite direction"
+                    "cam {cam} makes {turns} turns (counter-clockwise positive) relative to body {carrier}, which carries its follower {name}: this is opposite to rotation"
                 );
                 return wrong(&format!("cams.{cam}.rotation"), why);
             }

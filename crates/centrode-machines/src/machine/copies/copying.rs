@@ -125,11 +125,20 @@ impl Machine {
             .iter()
             .find(|body| *body == crate::machine::design::FRAME)
         {
-            return wrong("bodies", format!("the {body} is fixed: there is one"));
+            return wrong(
+                "bodies",
+                format!("the {body} is fixed and cannot be copied"),
+            );
         }
         match times(&spec.about) {
             0 => Ok(()),
-            _ => wrong("about", format!("body {} is copied itself", spec.about)),
+            _ => wrong(
+                "about",
+                format!(
+                    "body {} is copied itself: there can be no copies about it",
+                    spec.about
+                ),
+            ),
         }
     }
 
@@ -158,7 +167,7 @@ impl Machine {
         Err(MachineError::refused(
             format!("{key}.about"),
             format!(
-                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that is fixed or turns in one direction",
+                "body {about} turns to and fro: at an input of {:.4} deg its speed is {:.6} times that of the input. Copies need a body about them that is fixed or turns in one direction",
                 back.input.to_degrees(),
                 back.value
             ),
@@ -296,11 +305,15 @@ fn repeats(name: &str, copy: &str, about: &str, turn: f64, off: [Extreme; 2]) ->
     let [length, angle] = off;
     let degrees = turn.to_degrees();
     let what = match about {
-        crate::machine::design::FRAME => format!("as {name}, turned by {degrees:.4} deg"),
-        _ => format!("where {name} is when {about} has turned {degrees:.4} deg further"),
+        crate::machine::design::FRAME => {
+            format!("in the pose of {name} turned by {degrees:.4} deg")
+        }
+        _ => {
+            format!("in the pose that {name} has when {about} has turned {degrees:.4} deg further")
+        }
     };
     format!(
-        "the train does not repeat: {copy} is not {what}, but up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
+        "the train does not repeat: {copy} is not {what}; it is up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
         length.value,
         length.input.to_degrees(),
         angle.value.to_degrees(),

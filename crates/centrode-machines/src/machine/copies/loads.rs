@@ -26,7 +26,7 @@ impl ChainCopy<'_> {
             let taken = self.whole.loads.contains_key(&self.copy(name));
             let copied = self.name(name, taken)?;
             if load.expression.is_some() || load.over.is_some() {
-                let what = format!("a load that changes with the input, {name}");
+                let what = format!("load {name}, which changes with the input,");
                 let ahead = self.ahead(&key, &what)?;
                 self.run_ahead(format!("loads.{copied}"), ahead);
             }

@@ -44,7 +44,7 @@ impl MachineCopiesSpec {
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         count_in_range("count", self.count, 2, MOST)?;
         match self.bodies.is_empty() {
-            true => broken("bodies", Rule::Needed("to be copied")),
+            true => broken("bodies", Rule::Needed("with at least one body to copy")),
             false => Ok(()),
         }
     }
@@ -118,7 +118,7 @@ impl ChainCopy<'_> {
         let name = self.copy(of);
         if taken {
             return Err(self.wrong(format!(
-                "there is a {name} already, the name of a copy of {of}"
+                "the name {name} of a copy of {of} is already in use"
             )));
         }
         self.expansion.originals.insert(name.clone(), of.into());
@@ -156,7 +156,7 @@ impl ChainCopy<'_> {
         if known.is_some_and(|points| points.contains_key(&name)) {
             let body = &on.body;
             return Err(self.wrong(format!(
-                "body {body} has a point {name} already, the name of point {point} of a copy"
+                "body {body} already has a point {name}, the name of point {point} of a copy"
             )));
         }
         let at = Rotation2::new(self.turn) * at;
@@ -208,7 +208,7 @@ impl ChainCopy<'_> {
                 0 => continue,
                 1 => {
                     return Err(self.wrong(format!(
-                        "of the bodies {} and {} of dyad {name} one would be copied: name both",
+                        "only one of the bodies {} and {} of dyad {name} would be copied: name both",
                         dyad.bodies[0], dyad.bodies[1]
                     )));
                 }
@@ -346,7 +346,7 @@ impl ChainCopy<'_> {
             law.start_angle = self.direction(body.on.as_ref(), law.start_angle);
         }
         if moves {
-            let what = format!("a body with a law of its own, {name}");
+            let what = format!("body {name}, which has its own law,");
             let ahead = self.ahead(&format!("{key}.law"), &what)?;
             self.run_ahead(self.copy(name), ahead);
         }
@@ -361,8 +361,7 @@ impl ChainCopy<'_> {
             Spin::Still => Ok(0.0),
             Spin::Uneven(_) => {
                 let about = self.about;
-                let why =
-                    format!("body {about} turns unevenly: of {what}, there are no copies about it");
+                let why = format!("body {about} turns unevenly: {what} cannot be copied about it");
                 Err(MachineError::refused(key, why))
             }
         }

@@ -148,7 +148,7 @@ pub(in crate::machine) fn gears_of(
         if points.contains_key(name) {
             return Err(MachineError::refused(
                 format!("gears.{name}"),
-                format!("a body is named {name}, too: their files would be one"),
+                format!("there is also a body named {name}: their files would have the same name"),
             ));
         }
         let key = format!("gears.{name}.on");
@@ -207,7 +207,7 @@ impl Builder<'_> {
             return Err(MachineError::refused(
                 key,
                 format!(
-                    "{} and {}: only the driver and the driven gear of one pair mesh",
+                    "{} and {}: only the driver and the driven gear of one pair can mesh",
                     words(a),
                     words(b)
                 ),
@@ -240,7 +240,7 @@ impl Builder<'_> {
         let wrong = |why: String| MachineError::refused(key.clone(), why);
         if gear.body_name != name || gear.at != Point::origin() || base.at != Point::origin() {
             return Err(wrong(format!(
-                "gear {} must be on body {name} at its origin, and the body on another body without a point: the mesh places it",
+                "gear {} must be at the origin of body {name}, and bodies.{name}.on must name a body without a point: the mesh determines its position",
                 gear.name
             )));
         }
@@ -252,7 +252,7 @@ impl Builder<'_> {
         });
         let axis = axis.ok_or_else(|| {
             wrong(format!(
-                "the axis of gear {} moves on body {on}, which must carry it",
+                "the axis of gear {} must be fixed on body {on}, but moves relative to it",
                 other.name
             ))
         })?;
@@ -277,7 +277,7 @@ impl Builder<'_> {
         let (law, turns) = moved.law(self.linkage.period());
         if (turns - turns.round()).abs() > COMPUTED {
             return Err(wrong(format!(
-                "turns body {name} by {} turns on {on} in the period of {} turns of the input, which must be a whole number: set input.turns",
+                "turns body {name} by {} turns relative to {on} in the period of {} turns of the input. This must be a whole number: set input.turns",
                 (turns * 1e9).round() / 1e9,
                 self.design.input.turns
             )));
@@ -319,7 +319,7 @@ impl Builder<'_> {
                 return Err(MachineError::refused(
                     key,
                     format!(
-                        "the loop of meshes does not close: held by others, gears {one} and {other} are {:.6} deg off their mesh at an input of {:.4} deg",
+                        "the loop of meshes does not close: the other meshes hold gears {one} and {other} {:.6} deg off their mesh at an input of {:.4} deg",
                         mismatch.to_degrees(),
                         input.to_degrees()
                     ),

@@ -101,7 +101,7 @@ impl Machine {
             .map(|gear| &self.gears[gear]);
             let counted = match driver.gear().tooth_count() == driven.gear().tooth_count() {
                 true => "",
-                false => ", counted on through the turns",
+                false => ", counted on from turn to turn",
             };
             let [of, mate] = [driver, driven].map(|gear| self.original(&gear.name));
             let note = format!("Tooth k of {of} runs in space k - 1 of {mate}{counted}.");

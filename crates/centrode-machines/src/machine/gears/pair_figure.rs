@@ -61,7 +61,7 @@ impl Machine {
         let Some(pair) = pairs.iter().position(|pair| pair.name() == name) else {
             let known: Vec<&str> = pairs.iter().map(|pair| pair.name()).collect();
             return Some(Err(refused(format!(
-                "no gears of a pair {name}; there are some of {}",
+                "no gears use a pair {name}; pairs in use are {}",
                 known.join(", ")
             ))));
         };

@@ -35,7 +35,7 @@ impl Machine {
             return Err(MachineError::refused(
                 key,
                 format!(
-                    "{first} and {second} are both on {}: their clearance stays what it is",
+                    "{first} and {second} are both on {}: their clearance does not change",
                     self.bodies[one].name
                 ),
             ));

@@ -9,7 +9,7 @@ use centrode_kinematics::machine::JointKind;
 pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     [
         "point.x",
-        "x of a point: of body.point, or of a point whose name no other body has",
+        "x of a point: body.point, or the name of the point alone if no other body has it",
         "mm",
     ],
     ["point.y", "y of a point", "mm"],
@@ -25,7 +25,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "body.angle",
-        "angle of a body against the frame, without jumps",
+        "angle of a body relative to the frame, without jumps",
         "deg",
     ],
     [
@@ -35,12 +35,12 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "body.swing",
-        "angle of a body against the one that carries it, on a pin",
+        "angle of a body on a pin, relative to its carrier",
         "deg",
     ],
     [
         "body.travel",
-        "position of a body along the one that carries it, on a slide",
+        "position of a body on a slide, along its carrier",
         "mm",
     ],
     ["transmission(dyad)", "transmission angle of a dyad", "deg"],
@@ -51,7 +51,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "clearance(body, body)",
-        "minimum clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
+        "minimum clearance over the cycle of two bodies, or of a body and an obstacle: their plates and gears that overlap in height",
         "mm",
     ],
     [
@@ -61,18 +61,18 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "joint(body).force",
-        "force in the joint that carries a body, or joint(body-body) in the pin at which a dyad's bodies meet",
+        "force in the joint that carries a body; joint(body-body) for the pin that joins the two bodies of a dyad",
         "N",
     ],
     [
         "mesh(body).force",
-        "force along the normal of the teeth by which a body is moved",
+        "force along the tooth normal in the mesh that moves a body",
         "N",
     ],
     [
         "pair(pair).figure",
-        "figure of the check of a gear pair by its key, pair(drive).contact_ratio_mean: the teeth by themselves, over their own cycle",
-        "as there",
+        "figure of the check of a gear pair by its key, such as pair(drive).contact_ratio_mean: the pair alone, over its own cycle",
+        "as in the check",
     ],
 ];
 

@@ -119,7 +119,7 @@ impl MachineGoalSpec {
                 let rule = Rule::NotInOrder(degrees::rounded(from), degrees::rounded(to));
                 return broken("within_deg", rule);
             }
-            _ => return broken("within_deg", Rule::Needed("as two inputs, from and to")),
+            _ => return broken("within_deg", Rule::Needed("with two inputs, from and to")),
         }
         self.validate_uniform()?;
         for (key, value) in [("minimum", self.minimum), ("maximum", self.maximum)] {
@@ -155,7 +155,7 @@ impl MachineGoalSpec {
         let departs = self.over == Some(Over::Deviation);
         match self.uniform {
             None if departs => broken("uniform", Rule::Needed("for a deviation")),
-            Some(_) if !departs => broken("uniform", Rule::Unused("but for a deviation")),
+            Some(_) if !departs => broken("uniform", Rule::Unused("except for a deviation")),
             Some(_) if self.within.is_empty() => broken("within_deg", Rule::Needed("with uniform")),
             Some(ends) => ends.iter().try_for_each(|&end| finite("uniform", end)),
             None => Ok(()),

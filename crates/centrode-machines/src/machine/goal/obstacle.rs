@@ -106,7 +106,7 @@ impl Machine {
             if self.body_named(name).is_some() {
                 return Err(MachineError::refused(
                     key,
-                    format!("a body is named {name}, too: a clearance could be of either"),
+                    format!("there is also a body named {name}: a clearance could refer to either"),
                 ));
             }
             let on = format!("{key}.on");

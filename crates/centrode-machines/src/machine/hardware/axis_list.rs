@@ -97,7 +97,7 @@ impl Machine {
             let carrier = &self.bodies[mount.carrier].name;
             let angle = rounded(mount.angle.to_degrees(), 3);
             let size = format!("{size} {}", Self::GUIDE_FIT[0]);
-            let along = format!("along {angle}°, {travel} mm of travel");
+            let along = format!("along {angle}°, stroke {travel} mm");
             let own = self.bodies[index].mount.iter();
             machine.part(Part::given(
                 &format!("Guide of {name}"),
@@ -115,7 +115,7 @@ impl Machine {
                 machine.part(Part::given(
                     &format!("Spring of {name}"),
                     self.body_named(follower).into_iter().collect(),
-                    format!("or a groove: holds {name} on {}", self.original(&cam.name)),
+                    format!("or a groove: keeps {name} on {}", self.original(&cam.name)),
                 ));
             }
         }
@@ -124,10 +124,10 @@ impl Machine {
             machine.part(Part::given("Foot", vec![0; screws.at.len()], remark.into()));
         }
         if !self.has_plate(0) && !held.is_empty() {
-            let remark = "holds what the table Frame lists";
+            let remark = "bores and guides: see table Frame";
             machine.part(Part::given(FRAME, vec![0], remark.into()));
             machine.arrangement.tables.push(ArrangementTable {
-                title: "Frame (given): what it holds".into(),
+                title: "Frame (given): bores and guides".into(),
                 headings: IN_FRAME.map(String::from).into(),
                 rows: held.into_iter().map(Vec::from).collect(),
             });
@@ -179,7 +179,7 @@ impl Machine {
         let row = |hole: crate::PinHole| {
             let [x, y] = [hole.at.x, hole.at.y].map(thousandths);
             let size = format!("Ø{} {}", thousandths(hole.hub.bore), hole.hub.bore_fit);
-            let remark = format!("taken as from {} to {}", heights[0], heights[1]);
+            let remark = format!("assumed from {} to {}", heights[0], heights[1]);
             [hole.name, x, y, size, remark]
         };
         holes.map(row).collect()
@@ -270,7 +270,7 @@ impl Machine {
                     Hold::Given => (size(&shaft.hub.bore_fit), "fixed on it, no key".into()),
                     Hold::Turning => (size(&plates.hole_fit), "turns on it".into()),
                     Hold::Bracket => (String::new(), "on a bracket, clear of it".into()),
-                    Hold::Loose => (String::new(), "bore or keyway is not the shaft's".into()),
+                    Hold::Loose => (String::new(), "bore or keyway differs from shaft".into()),
                 };
                 let supply = made(part.body, part.is_plate).name().into();
                 (part.span, [part.name.clone(), size, how, supply])

@@ -94,7 +94,7 @@ impl Machine {
         let refused = |why: String| MachineError::Refused {
             key: "hardware".into(),
             why: format!(
-                "{why}: full needs a frame of two plates on posts; draw frame.outline, or take list"
+                "{why}: hardware = \"full\" needs a frame of two plates on posts; draw frame.outline, or use \"list\""
             ),
         };
         match Fastening::largest(None, thickness, of) {

@@ -117,7 +117,7 @@ impl Machine {
             let joined: Vec<&str> = joined.map(|k| &*units[k].name).collect();
             let fixed = pins[pin].fixed.map_or("", |_| " and its gears or roller");
             format!(
-                "the pin at {} joins {}{fixed} and meets the plate of {}",
+                "the pin at {} joins {}{fixed} and hits the plate of {}",
                 pins[pin].name,
                 joined.join(", "),
                 units[unit].name

@@ -174,7 +174,7 @@ impl Machine {
                 }
                 let [first, second] = [one, other].map(|hole| thousandths(hole.hub.bore));
                 Some(format!(
-                    "axes {} and {} of body {} are {} mm apart, but their holes of {first} and {second} mm overlap: take thinner pins",
+                    "axes {} and {} of body {} are {} mm apart, but their holes of {first} and {second} mm overlap: use thinner pins",
                     one.name,
                     other.name,
                     body.name,
@@ -187,7 +187,7 @@ impl Machine {
                 pairs.find_map(|(slot, hole)| {
                     let wall = -slot.depth(hole.at) - 0.5 * hole.hub.bore;
                     (wall < 0.0).then(|| format!(
-                        "in body {}, the slot of {} mm for {} overlaps the hole of axis {} by {} mm: take a narrower {}, or a shorter stroke",
+                        "in body {}, the slot of {} mm for {} overlaps the hole of axis {} by {} mm: use a narrower {}, or a shorter stroke",
                         body.name,
                         thousandths(slot.width),
                         self.bodies[slot.block].name,
@@ -390,14 +390,23 @@ impl Machine {
                 format!("hole of {} mm for the pin at {x}, {y} mm", hub.bore)
             });
             let slots = self.slots(index).into_iter().map(|slot| {
-                let [a, b, c, d] = [slot.ends[0].x, slot.ends[0].y, slot.ends[1].x, slot.ends[1].y].map(stated);
+                let [a, b, c, d] = [
+                    slot.ends[0].x,
+                    slot.ends[0].y,
+                    slot.ends[1].x,
+                    slot.ends[1].y,
+                ]
+                .map(stated);
                 let block = &self.bodies[slot.block].name;
-                format!("slot of {} mm for {block}, whose ends are round about {a}, {b} and {c}, {d} mm,", slot.width)
+                format!(
+                    "slot of {} mm for {block}, with round ends about {a}, {b} and {c}, {d} mm,",
+                    slot.width
+                )
             });
             for (hole, what) in holes.into_iter().zip(pins.chain(slots)) {
                 let plate = Solid::new(outline.clone(), vec![hole], 0.0, 1.0);
                 if plate.and_then(|plate| plate.mesh(fine)).is_err() {
-                    return Err(wrong(format!("the {what} does not lie within the outline")));
+                    return Err(wrong(format!("the {what} is not inside the outline")));
                 }
             }
         }

@@ -124,8 +124,8 @@ impl Machine {
         let own = parts.find(|part| !part.is_plate && part.name == name);
         match own.map(|part| part.hold) {
             None if self.design.hardware() == Hardware::None => None,
-            None => Some("no bore, or none on an axis: not joined"),
-            Some(Hold::Loose) => Some("bore or keyway is not its shaft's"),
+            None => Some("no bore, or not on an axis: not joined"),
+            Some(Hold::Loose) => Some("bore or keyway differs from shaft"),
             Some(_) => None,
         }
     }
@@ -178,7 +178,7 @@ impl Machine {
             if let Some(known) = machine.parts.iter_mut().find(|part| part.name == name) {
                 known.links.extend(link);
                 if hub.keyway.is_some() {
-                    known.remark += &format!(", of a copy {angle}°");
+                    known.remark += &format!(", copy at {angle}°");
                 }
                 continue;
             }
@@ -190,7 +190,7 @@ impl Machine {
                     let [width, depth] = [key.width, key.depth].map(thousandths);
                     format!("keyway {width} x {depth} at {angle}° from the x axis of {on}")
                 }
-                None => "kept from turning".into(),
+                None => "locked in rotation".into(),
             };
             let (on, class) = (self.original(body), &hub.shaft_fit);
             let remark = format!(

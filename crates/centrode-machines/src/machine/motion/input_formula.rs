@@ -46,8 +46,12 @@ pub(in crate::machine) fn expression(
     };
     let (first, last) = (jet(0.0), jet(period));
     for (what, start, end) in [
-        ("its rate", first.velocity, last.velocity),
-        ("its acceleration", first.acceleration, last.acceleration),
+        ("its first derivative", first.velocity, last.velocity),
+        (
+            "its second derivative",
+            first.acceleration,
+            last.acceleration,
+        ),
     ] {
         if (start - end).abs() > COMPUTED * start.abs().max(1.0) {
             return Err(MachineLawError::Open { what, start, end });

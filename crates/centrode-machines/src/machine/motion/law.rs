@@ -95,7 +95,7 @@ pub enum MachineLawError {
     },
     /// A table of angles after which the body may either turn on or swing back.
     #[error(
-        "its last step is not clear next to its largest step of {} deg: {}, {}; set law.turns to one of them",
+        "its last step is ambiguous compared with its largest step of {} deg: {}; {}. Set law.turns to one of them",
         stated(.0[0].largest_step.to_degrees()), .0[0].words(), .0[1].words()
     )]
     UnclearTable([TableReading; 2]),
@@ -112,10 +112,10 @@ pub enum MachineLawError {
     By(#[from] TransmissionError),
     /// A turning body that is not back at its first position after a period.
     #[error(
-        "turns the body by {turns} turns in the period of {period} turns of the input, and is not back: {}",
+        "turns the body by {turns} turns in the period of {period} turns of the input, and so is not back at its start: {}",
         match minimum {
             Some(minimum) => format!("set input.turns to {minimum} or a multiple of it"),
-            None => "no input.turns up to 60 bring it back".into(),
+            None => "no input.turns up to 60 brings it back".into(),
         }
     )]
     NoWholeTurns {
@@ -200,12 +200,12 @@ impl MachineLawSpec {
             return broken(key, Rule::NeedsOneOf(keys));
         }
         if first.is_none() && self.by.is_some() {
-            return broken("by", Rule::Unused("but for a law that moves"));
+            return broken("by", Rule::Unused("except for a law that moves"));
         }
         if self.follows.is_some() && self.by.is_some() {
             return broken("by", Rule::Excludes("follows"));
         }
-        let only = "but for a body that turns";
+        let only = "except for a body that turns";
         let strange: &[(&str, bool)] = if slides {
             &[
                 ("start_deg", self.start_angle.is_some()),
@@ -224,7 +224,7 @@ impl MachineLawSpec {
             let only = if slides {
                 only
             } else {
-                "but for a body that slides"
+                "except for a body that slides"
             };
             return broken(key, Rule::Unused(only));
         }
@@ -327,7 +327,7 @@ impl MachineLawSpec {
         }
         let advance = law.advance() * period / law.period();
         if slides && advance != 0.0 {
-            let what = "its place";
+            let what = "its position";
             let start = law.at(0.0).position;
             let end = start + advance;
             return Err(MachineLawError::Open { what, start, end });

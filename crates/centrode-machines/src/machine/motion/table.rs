@@ -56,8 +56,10 @@ impl TableReading {
     pub(in crate::machine) fn words(&self) -> String {
         let step = stated(self.last_step.to_degrees());
         match self.turns {
-            0 => format!("turns = 0 swings back, with a last step of {step} deg"),
-            turns => format!("turns = {turns} turns on, with a last step of {step} deg"),
+            0 => format!("with turns = 0 the body swings back, in a last step of {step} deg"),
+            turns => {
+                format!("with turns = {turns} the body turns on, in a last step of {step} deg")
+            }
         }
     }
 }

@@ -280,25 +280,25 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             &sliding,
             format!("offset = {}", offset()),
             "offset = 5".to_owned(),
-            "cams.push.follower.offset: is 5 mm, but body lever is held at 3.8660",
+            "cams.push.follower.offset: is 5 mm, but body lever is at 3.8660",
         ),
         (
             &swinging,
             "arm_length = 40".into(),
             "arm_length = 40, center_distance = 60".into(),
-            "cams.push.follower.center_distance: is 60 mm, but body lever is held at 50.990",
+            "cams.push.follower.center_distance: is 60 mm, but body lever is at 50.990",
         ),
         (
             &sliding,
             "base_radius = 25".into(),
             "base_radius = 25\nrotation = \"counter-clockwise\"".into(),
-            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) against body frame, on which lever follows it: it turns in the opposite direction",
+            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) relative to body frame, which carries its follower lever: this is opposite to rotation",
         ),
         (
             &swinging,
             "\nlaw = { follows = \"push\", start_deg = 25 }".into(),
             "\nslides_deg = 0\nlaw = { follows = \"push\" }".into(),
-            "bodies.lever.law.follows: cam push has a follower on a body that turns, not on a body that slides",
+            "bodies.lever.law.follows: the follower of cam push needs a body that turns, not a body that slides",
         ),
         (
             &sliding,
@@ -316,7 +316,7 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             &sliding,
             "on = \"shaft\"".into(),
             "on = \"lever\"".into(),
-            "bodies.lever is held by itself",
+            "bodies.lever: the position of bodies.lever depends on itself",
         ),
         (
             &sliding,
@@ -328,7 +328,7 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             &sliding,
             "ratio = -2, ".into(),
             String::new(),
-            "bodies.lever.law.follows: cam push does not turn against body frame, on which lever follows it",
+            "bodies.lever.law.follows: cam push does not turn relative to body frame, which carries its follower lever",
         ),
         (
             &sliding,
@@ -361,8 +361,7 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             "start_deg = 11 }",
             "start_deg = 11 }\npoints = { A = [5, 0] }",
         );
-    let stated =
-        "bodies.lever.law.follows: the axis of cam push moves on body frame, which must carry it";
+    let stated = "bodies.lever.law.follows: the axis of cam push must be fixed on body frame, but moves relative to it";
     assert!(refused(&moving).contains(stated), "{}", refused(&moving));
 }
 
@@ -387,9 +386,9 @@ fn two_bodies_follow_one_cam_only_where_they_are_held_alike() {
         assert!((lead - lag).abs() < 1e-10, "{lead} {lag}");
     }
     let found = refused(&other("[-10, 51]"));
-    let stated = "bodies.second.law.follows: body second is held 51.97";
+    let stated = "bodies.second.law.follows: body second is 51.97";
     assert!(
-        found.contains(stated) && found.contains("but lever 50.99"),
+        found.contains(stated) && found.contains("but body lever is at 50.99"),
         "{found}"
     );
 }

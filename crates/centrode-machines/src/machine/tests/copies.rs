@@ -220,7 +220,7 @@ fn a_train_that_does_not_repeat_is_refused_with_the_mismatch() {
         )
         .replace("on = \"frame.O\", mount_deg = 86", "on = \"hub\"");
     let found = refused(&text);
-    let stated = "copies.arms: the train does not repeat: idler-1-2 is not where idler-1 is when carrier has turned 120.0000 deg further, but up to 0.000000 mm off";
+    let stated = "copies.arms: the train does not repeat: idler-1-2 is not in the pose that idler-1 has when carrier has turned 120.0000 deg further; it is up to 0.000000 mm off";
     assert!(
         found.contains(stated) && found.contains("120.000000 deg (at"),
         "{found}"
@@ -238,7 +238,7 @@ fn a_train_that_does_not_repeat_is_refused_with_the_mismatch() {
     let rod = rod.replace("O = [0, 0]", "O = [0, 0]\nZ = [2, 0]");
     assert_eq!(made(&rod).dyads().len(), 3);
     let found = refused(&rod.replace("to = \"frame.Z\"", "to = \"hub.Z\""));
-    let stated = "guide-2 is not where guide is when carrier has turned 120.0000 deg further, but up to 3.464102 mm off";
+    let stated = "guide-2 is not in the pose that guide has when carrier has turned 120.0000 deg further; it is up to 3.464102 mm off";
     assert!(found.contains(stated), "{found}");
 }
 
@@ -265,7 +265,7 @@ fn bad_copies_are_told_by_their_key() {
         (
             "[copies.arms]",
             "[bodies.arm-1-2]\nfixed_to = \"carrier\"\n[copies.arms]",
-            "copies.arms: there is a arm-1-2 already",
+            "copies.arms: the name arm-1-2 of a copy of",
         ),
         (
             "\"idler-1\", \"planet-1\"",

@@ -207,25 +207,25 @@ fn cams_that_cannot_be_cut_are_told_with_their_numbers() {
             &sliding,
             "cos(2*phi - 0.4)",
             "cos(phi)",
-            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push against body frame (2 turns in a period): at inputs of ",
+            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push relative to body frame (2 turns in a period): at inputs of ",
         ),
         (
             &sliding,
             "expression = \"3 - 3*cos(2*phi - 0.4)\"",
             "expression = \"0*phi\"",
-            "cams.push.cut_to: body lever is fixed",
+            "cams.push.cut_to: body lever does not move",
         ),
         (
             &swinging,
             "phi + 0.4*sin(phi)",
             "phi + 1.4*sin(phi)",
-            "cams.push.cut_to: cam push must turn in one direction against body frame, on which lever follows it, but at an input of 135.",
+            "cams.push.cut_to: cam push must turn in one direction relative to body frame, which carries its follower lever, but at an input of 135.",
         ),
         (
             &swinging,
             "phi + 0.4*sin(phi)",
             "0.4*sin(phi)",
-            "cams.push.cut_to: cam push makes no whole turn against body frame",
+            "cams.push.cut_to: cam push makes no whole turn relative to body frame",
         ),
         (
             &swinging,
@@ -256,7 +256,7 @@ fn cams_that_cannot_be_cut_are_told_with_their_numbers() {
             &swinging,
             "base_radius = 25",
             "base_radius = 25\nabout = \"lever\"",
-            "cams.push.about: lever moves on body shaft, on which cam push is mounted about it",
+            "cams.push.about: lever moves relative to body shaft: cam push on this body cannot be mounted about it",
         ),
         (
             &swinging,

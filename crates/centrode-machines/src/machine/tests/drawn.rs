@@ -153,7 +153,7 @@ fn contours_and_masses_that_cannot_be_are_told_by_key() {
         ),
         (
             "outline = [[0, 0], [1, 0, 1, 2], [3, 4]]",
-            "a corner is x and y, or x, y and the bulge of the side that begins there, not 4 numbers",
+            "a corner is x and y, or x, y and the bulge of the side that starts there, not 4 numbers",
         ),
         (
             "outline = [[-20, 0, 1], [20, 0, 101]]",
@@ -173,7 +173,7 @@ fn contours_and_masses_that_cannot_be_are_told_by_key() {
         ),
         (
             "outline = [[-20, -20], [20, -20], [0, 0.5]]",
-            "bodies.ram.outline: the hole of 4 mm for the pin at 0, 0 mm does not lie within the outline",
+            "bodies.ram.outline: the hole of 4 mm for the pin at 0, 0 mm is not inside the outline",
         ),
         (
             "outline = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\ncorner_radius = 10",

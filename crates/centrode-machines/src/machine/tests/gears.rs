@@ -87,8 +87,7 @@ mesh = { gear = "big", with = "small", direction_deg = 120 }
     let turned = train.angle(drum, 2.0 * TAU).position - train.angle(drum, 0.0).position;
     assert!((turned + TAU).abs() < 1e-12);
     let short = text.replace("turns = 2", "turns = 1");
-    let stated =
-        "bodies.drum.mesh: turns body drum by -0.5 turns on frame in the period of 1 turns";
+    let stated = "bodies.drum.mesh: turns body drum by -0.5 turns relative to frame in the period of 1 turns";
     let found = refused(&short);
     assert!(found.contains(stated), "{found}");
 }
@@ -106,7 +105,7 @@ fn a_loop_of_meshes_closes_or_is_refused_with_its_gears_and_the_mismatch() {
     let closed = Machine::resolve(&read(&looped(0.0)));
     assert!(closed.is_ok(), "{closed:?}");
     let found = refused(&looped(10.0));
-    let stated = "meshes.loop: the loop of meshes does not close: held by others, gears sun and spare are 10.000000 deg off";
+    let stated = "meshes.loop: the loop of meshes does not close: the other meshes hold gears sun and spare 10.000000 deg off";
     assert!(found.contains(stated), "{found}");
 }
 
@@ -224,17 +223,17 @@ fn bad_gears_are_told_by_their_key() {
         (
             "on = \"crank\"",
             "on = \"rod\"",
-            "bodies.crank.mesh: gear wheel must be on body crank at its origin",
+            "bodies.crank.mesh: gear wheel must be at the origin of body crank",
         ),
         (
             "law = { ratio = -1 }",
             "mesh = { gear = \"pinion\", with = \"wheel\", direction_deg = 0 }",
-            "wait for each other",
+            "depend on each other",
         ),
         (
             "on = \"frame\"\nmesh",
             "on = \"rod\"\nmesh",
-            "wait for each other",
+            "depend on each other",
         ),
         (
             "direction_deg = 0 }",
@@ -254,7 +253,9 @@ fn bad_gears_are_told_by_their_key() {
     );
     let found = refused(&text);
     assert!(
-        found.contains("the axis of gear pinion moves on body slider, which must carry it"),
+        found.contains(
+            "the axis of gear pinion must be fixed on body slider, but moves relative to it"
+        ),
         "{found}"
     );
 }

@@ -33,7 +33,7 @@ fn numbers_beyond_any_machine_are_refused_by_key() {
     let bare = "family = \"machine\"\n[frame.points]\nO = [0, 0]\n";
     let found = refused(bare);
     assert!(
-        found.contains("bodies: is needed next to the frame"),
+        found.contains("bodies: is needed with at least one body"),
         "{found}"
     );
 }
@@ -43,9 +43,9 @@ fn parts_whose_files_would_have_one_name_are_refused() {
     let more =
         |name: &str| format!("{LEG}\n[bodies.{name}]\non = \"frame.O\"\nlaw = {{ ratio = 1 }}\n");
     for (name, stated) in [
-        ("Crank", "would have one name"),
+        ("Crank", "would have the same name"),
         ("assembly", "a file of the whole machine is named assembly"),
-        ("con", "is no name for a file"),
+        ("con", "is not allowed as the name of a file"),
         ("sheets", "a file of the whole machine is named sheets"),
         ("Sheets", "a file of the whole machine is named sheets"),
         (
@@ -62,11 +62,11 @@ fn parts_whose_files_would_have_one_name_are_refused() {
         ),
         (
             "crank-sheet",
-            "the files of bodies.crank-sheet and bodies.crank would have one name",
+            "the files of bodies.crank-sheet and bodies.crank would have the same name",
         ),
         (
             "CRANK-SHEET-12",
-            "the files of bodies.CRANK-SHEET-12 and bodies.crank would have one name",
+            "the files of bodies.CRANK-SHEET-12 and bodies.crank would have the same name",
         ),
     ] {
         let found = refused(&more(name));
@@ -90,8 +90,8 @@ fn parts_whose_files_would_have_one_name_are_refused() {
 fn a_search_moves_numbers_of_the_machine_alone() {
     let goal = "[goals.low]\nfigure = \"foot.y\"\nover = \"minimum\"\nminimum = -90\n";
     for (key, stated) in [
-        ("goals.low.minimum", "says what is required"),
-        ("input.turns", "says what is required"),
+        ("goals.low.minimum", "is a requirement"),
+        ("input.turns", "is a requirement"),
         ("bodies.crank.points.Z[0]", "unknown key"),
     ] {
         let design = read(&format!("{LEG}\n{goal}[vary]\n\"{key}\" = [1, 2]\n"));

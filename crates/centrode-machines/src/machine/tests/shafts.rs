@@ -267,7 +267,7 @@ fn a_cam_through_which_the_shaft_of_another_body_goes_has_a_bracket() {
         .find(|part| part.name == "hub-wheel")
         .expect("a wheel");
     assert!(
-        wheel.remark.ends_with("is not its shaft's"),
+        wheel.remark.ends_with("bore or keyway differs from shaft"),
         "{}",
         wheel.remark
     );

@@ -111,7 +111,7 @@ fn a_slot_lies_within_an_outline_drawn_by_hand_or_the_file_is_refused() {
     assert_eq!((contour.segments().len(), holes.len()), (4, 2));
     let error = refused(&quick_return(&outline(95.0)));
     assert!(error.contains("bodies.lever.outline"), "{error}");
-    let slot = "the slot of 9.6 mm for block, whose ends are round about 27, 0 and 93, 0 mm, does not lie within the outline";
+    let slot = "the slot of 9.6 mm for block, with round ends about 27, 0 and 93, 0 mm, is not inside the outline";
     assert!(error.contains(slot), "{error}");
 }
 

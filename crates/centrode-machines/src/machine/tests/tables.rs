@@ -156,7 +156,7 @@ fn the_turns_of_a_table_are_a_key_of_tables_of_angles_alone() {
         (
             "table_deg = [0, 40, 80, 120, 160, 200]",
             "",
-            "law.table_deg: its last step is not clear",
+            "law.table_deg: its last step is ambiguous",
         ),
     ] {
         let error = refused(&file(law, slides));

@@ -276,7 +276,7 @@ impl ThreeArmDesign {
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         if !self.teeth.fit.is_empty() {
             let rule = Rule::Unused(
-                "here: fit one of its gears and the next as a gear pair, and write what is found",
+                "here: fit two meshing gears of the train as a gear pair, and write the result into the design",
             );
             return broken("fit", rule).map_err(|e: SpecError| e.inside("teeth"));
         }

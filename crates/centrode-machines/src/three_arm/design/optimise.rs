@@ -65,7 +65,10 @@ impl OptimiseSpec {
             let key = format!("bounds.{parameter}");
             ordered(&key, range)?;
             if parameter.of(design).is_none() {
-                return broken(&key, Rule::Needed("in the design before it can move"));
+                return broken(
+                    &key,
+                    Rule::Needed("in the design, so that a search can vary it"),
+                );
             }
         }
         finite("picking_depth", self.picking_depth)?;

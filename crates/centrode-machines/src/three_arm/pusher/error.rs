@@ -38,9 +38,7 @@ pub enum PusherError {
         pusher_offset: f64,
     },
     /// The holes of pivot and roller overlap.
-    #[error(
-        "the roller's pin is {arm_length} mm from the pivot, but their holes reach {needed} mm"
-    )]
+    #[error("the roller's pin is {arm_length} mm from the pivot, but their holes need {needed} mm")]
     Holes {
         /// Distance of the two axes, mm.
         arm_length: f64,
@@ -49,7 +47,7 @@ pub enum PusherError {
     },
     /// Cam, fork and rod do not fit next to each other.
     #[error(
-        "rod, fork and cam reach {needed} mm to the rear of the middle of the housing, which leaves {room} mm"
+        "rod, fork and cam need {needed} mm behind the middle of the housing, but only {room} mm is available"
     )]
     Depth {
         /// Width that they need, mm.
@@ -59,7 +57,7 @@ pub enum PusherError {
     },
     /// The rear end of the rod does not reach the fork's pin.
     #[error(
-        "thrown out, the fork's pin is {pin} mm before the planet's axis, but the rod begins at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
+        "with the rod thrown out, the fork's pin is {pin} mm in front of the planet's axis, but the rod starts at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
     )]
     RodEnd {
         /// Position of the pin along the pusher's axis, mm.

@@ -54,7 +54,7 @@ pub enum SweepError {
     )]
     Kind,
     /// Fewer points than the spline's degree needs, or other numbers of points than those of the sweep.
-    #[error("a sweep of {required} points got {found}")]
+    #[error("the sweep has {required} control points, but the design has {found}")]
     Points {
         /// Required number of points.
         required: usize,
@@ -67,7 +67,7 @@ pub enum SweepError {
     )]
     ControlPoints,
     /// The pitch curve does not wind once round the sun's axis.
-    #[error("the pitch curve does not go round the axis once, in order")]
+    #[error("the pitch curve must go round the axis exactly once without turning back")]
     NotAroundAxis,
     /// No centre distance closes the driven curve.
     #[error("no centre distance closes the driven curve")]
