@@ -1,6 +1,7 @@
-"""Non-circular gears: pitch curve to proved pair, cutting file, solid and simulator model.
+"""Non-circular gears: from the pitch curve to a proved gear pair, cutting files, solids and simulator models.
 
-Lengths are millimetres, angles radians, counter-clockwise positive. Everything that cannot be made raises `Error`.
+Lengths are in millimetres, angles in radians, counter-clockwise positive. If something cannot be made, `Error` is
+raised.
 
 >>> import centrode as ct
 >>> pitch = ct.pitch.ellipse(eccentricity=0.25, module=2.25, tooth_count=23)

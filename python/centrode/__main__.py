@@ -1,4 +1,4 @@
-"""The command line: ``python -m centrode`` is the program ``centrode``, word for word."""
+"""The command line: ``python -m centrode`` is the same as the program ``centrode``."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from ._centrode import _run
 
 
 def main() -> int:
-    """Run the program with the words of the command line and return its exit status.
+    """Run the program with the arguments of the command line and return its exit status.
 
-    It is for a process of its own: standard output and Ctrl-C are the program's from here on.
+    It must have its own process, because it takes over standard output and Ctrl-C.
     """
-    # A stream that was closed at the start: else the next file opened would replace it.
+    # Streams closed at the start are opened on the null device; otherwise the next opened file would take their place.
     for stream in (sys.__stdin__, sys.__stdout__, sys.__stderr__):
         if stream is None:
             os.open(os.devnull, os.O_RDWR)
-    # Python only notes Ctrl-C and waits for its turn, which would come when all is done.
+    # Python's handler would run only after the program has ended, so the default action of Ctrl-C is restored.
     if (
         threading.current_thread() is threading.main_thread()
         and signal.getsignal(signal.SIGINT) is signal.default_int_handler

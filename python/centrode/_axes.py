@@ -6,28 +6,32 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class AxisMap:
-    """Possible axes of a carrier over a grid; arrays have a row for each y and a column for each x."""
+    """Possible axes of a carrier on a grid. Arrays have a row for each y and a column for each x."""
 
     __module__ = "centrode"
 
     x: NDArray[float64]
-    """Columns, mm."""
+    """x of each column, mm."""
     y: NDArray[float64]
-    """Rows, mm."""
+    """y of each row, mm."""
     possible: NDArray[bool_]
     """Whether the axis is possible."""
     fault: tuple[tuple[str | None, ...], ...]
-    """Reason or None: "extremes", "circle", "on-axis", "winding", "carrier-turns-back", "arm-stops", "too-far"."""
+    """Reason why the axis is not possible, or None.
+
+    "extremes", "circle", "on-axis", "winding", "carrier-turns-back", "arm-stops" or "too-far".
+    """
     carrier: NDArray[float64]
-    """Length of the carrier, mm; NaN where the axis is not possible, as in the arrays that follow."""
+    """Length of the carrier, mm. It and the following arrays are NaN where the axis is not possible."""
     arm: NDArray[float64]
     """Length of the arm, mm."""
     ratios: NDArray[float64]
-    """Minimum and maximum ratio of the total law along the last axis of the array."""
+    """Minimum and maximum ratio of the total law, along the last axis of the array."""
     minimum_radius: NDArray[float64]
-    """Minimum convex radius of the four pitch curves by powers, mm, mostly within 5 % of the gears as they are written.
+    """Estimated minimum convex radius of the four pitch curves, split by powers, mm.
 
-    Up to 40 % more where the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled.
+    Mostly within 5 % of the value for the gears as written; up to 40 % larger where the law has a narrow peak.
+    For a path of more than 64 pieces, 64 of them are sampled.
     """
     shaft_distance: NDArray[float64]
     """Minimum distance of the tip from the axis, mm."""
@@ -35,22 +39,22 @@ class AxisMap:
 
 @dataclass(frozen=True)
 class SplitFigures:
-    """Figures of the gears of a split: a pair that occurs twice, or two pairs, the sun's first."""
+    """Figures of the gears of a split: one pair that is used twice, or two pairs, the pair with the sun first."""
 
     __module__ = "centrode"
 
     name: str
-    """Word for the split: "powers", "mildest" or "one-pair"."""
+    """Name of the split: "powers", "mildest" or "one-pair"."""
     minimum_radii: tuple[tuple[float, float], ...]
-    """Minimum convex radii of driver and driven gear of each pair, mm; none where there is no split."""
+    """Minimum convex radii of driver and driven gear of each pair, mm; empty if the split is not possible."""
     convex: tuple[tuple[bool, bool], ...]
-    """Whether driver and driven gear of each pair are convex all round."""
+    """Whether driver and driven gear of each pair are convex everywhere."""
     tip_error: float
-    """Maximum distance of the tip from the path, mm, with laws in tables; NaN where there is no split."""
+    """Maximum distance of the tip from the path, mm, with the laws as tables; NaN if the split is not possible."""
     refusal: str | None
-    """Why the motion cannot be split so; None where it can."""
+    """Reason why this split is not possible; None if it is possible."""
 
     @property
     def minimum_radius(self) -> float:
-        """The minimum of all minimum radii, mm; NaN where there is no split."""
+        """Minimum of all these radii, mm; NaN if the split is not possible."""
         return min((radius for pair in self.minimum_radii for radius in pair), default=float("nan"))

@@ -3,15 +3,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Clearance:
-    """How close two arms come over a whole turn of the carrier."""
+    """Minimum clearance of two arms over a whole turn of the carrier."""
 
     __module__ = "centrode"
 
     minimum: float
-    """Minimum distance found, mm; negative where they overlap: how deep one lies in the other."""
+    """Minimum distance found, mm; negative if the arms overlap: the depth of penetration."""
     lower_bound: float
-    """The clearance is proven to be nowhere smaller, mm."""
+    """Proven lower bound of the clearance over the turn, mm."""
     input: float
-    """Carrier turn of the minimum, rad."""
+    """Carrier angle at the minimum, rad."""
     arms: tuple[int, int]
     """The two arms."""

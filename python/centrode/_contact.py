@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """The contact of a pair along its cycle, one value an input; made by `GearPair.contact`.
+    """The contact of a pair over its cycle, one value per input; made by `GearPair.contact`.
 
-    Where nothing is near enough to drive, the mesh has come apart: errors and backlash are infinite.
+    Errors and backlash are infinite where the gears have lost contact.
     """
 
     __module__ = "centrode"
@@ -16,34 +16,34 @@ class Contact:
     input: NDArray[float64]
     """Driver angle, rad."""
     law: NDArray[float64]
-    """Driven angle the pitch curves require, rad."""
+    """Driven angle required by the pitch curves, rad."""
     driven_angle: NDArray[float64]
-    """Driven angle when the driver pushes it on, rad; infinite where nothing does."""
+    """Driven angle when the driver pushes forward, rad; infinite without contact."""
     reverse_driven_angle: NDArray[float64]
-    """Driven angle when the driver pushes it back, rad."""
+    """Driven angle when the driver pushes back, rad."""
     transmission_error: NDArray[float64]
-    """Driven angle when the driver pushes it on, less the law and the designed half backlash, rad."""
+    """Transmission error when the driver pushes forward: driven angle minus law and designed half backlash, rad."""
     reverse_transmission_error: NDArray[float64]
-    """The same with the driver pushing it back."""
+    """Transmission error when the driver pushes back, rad."""
     backlash: NDArray[float64]
-    """Turn of the driven gear between the flanks that push it on and back, the driver held, rad."""
+    """Angle by which the driven gear can turn between its flanks with the driver fixed, rad."""
     normal_backlash: NDArray[float64]
     """Backlash times the distance of the driven axis from the line of action, `r2 cos(alpha)` (ISO 21771), mm."""
     contacts: NDArray[uint32]
-    """Pairs of teeth in contact when the driver pushes the driven gear on."""
+    """Number of tooth pairs in contact when the driver pushes forward."""
     penetration: NDArray[float64]
-    """Deepest penetration of the two outlines with the driven gear seated, mm."""
+    """Maximum penetration of the two outlines with the driven gear in contact, mm."""
     clearance: NDArray[float64]
-    """Minimum distance of a tip from a root, mm; infinite where none is near."""
+    """Minimum distance of a tip from a root, mm; infinite if none is near."""
     fillet_clearance: NDArray[float64]
-    """Minimum distance of anything from a fillet, mm; infinite where nothing is near."""
+    """Minimum distance of the mating gear from a fillet, mm; infinite if none is near."""
     sliding: NDArray[float64]
-    """Maximum sliding speed of the teeth in contact per driver speed, pushed forward, mm/rad."""
+    """Maximum sliding speed per driver speed of the teeth in contact when the driver pushes forward, mm/rad."""
 
     def __len__(self) -> int:
-        """Give the number of inputs."""
+        """Number of inputs."""
         return len(self.input)
 
     def __repr__(self) -> str:
-        """Name the number of inputs; the arrays are long."""
+        """Number of inputs, without the arrays."""
         return f"Contact({len(self)} inputs)"

@@ -7,10 +7,10 @@ from ._error import DesignError
 
 
 def load(path: str | PathLike[str]) -> Mechanism:
-    """Read a design file and make its mechanism: that of its family.
+    """Read a design file and make its mechanism, an object of the class of its family.
 
     Raises:
-        DesignError: The design breaks a rule; its `key`, `line` and `column` say where.
+        DesignError: The design breaks a rule; `key`, `line` and `column` are the position.
         OSError: The file cannot be read.
     """
     with open(path, "rb") as file:
@@ -23,7 +23,7 @@ def load(path: str | PathLike[str]) -> Mechanism:
 
 
 def schema(family: str | None = None) -> dict[str, Any]:
-    """Give the JSON schema of the design files of a family, or of all.
+    """Return the JSON schema of the design files of a family, or of all families.
 
     >>> import centrode as ct
     >>> "$schema" in ct.schema()

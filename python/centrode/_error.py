@@ -1,5 +1,5 @@
 class Error(Exception):
-    """There is no mechanism, there is no file of it, or the program failed: base of every error of this package."""
+    """Base class of all errors of this package."""
 
     __module__ = "centrode"
 
@@ -18,7 +18,7 @@ class DesignError(Error, ValueError):
     __module__ = "centrode"
 
     key: str
-    """Key at fault as a design file has it, with the tables around it; empty where no key is to blame."""
+    """Key at fault as in a design file, with its tables; empty if the fault has no key."""
     line: int | None
     """Line of the key in the design file, from one; None without a file."""
     column: int | None
@@ -39,19 +39,19 @@ class PitchError(DesignError):
 
 
 class GearPairError(DesignError):
-    """A gear pair that cannot exist: curves that do not roll, teeth that leave no contour."""
+    """A gear pair that cannot exist: the curves do not roll on each other, or the teeth have no contour."""
 
     __module__ = "centrode"
 
 
 class CamError(DesignError):
-    """A cam that cannot exist: segments that make no motion, a follower that cannot follow it."""
+    """A cam that cannot exist: the segments do not form a motion, or the follower cannot follow it."""
 
     __module__ = "centrode"
 
 
 class LinkageError(DesignError):
-    """A linkage that cannot exist or turn.
+    """A linkage that cannot exist or cannot turn.
 
     >>> import centrode as ct
     >>> try:
@@ -64,18 +64,18 @@ and Grashof's margin must be above 0: it is 12 mm (the two other lengths minus s
 
 
 class MechanismError(DesignError):
-    """A mechanism that cannot exist, although its gears can."""
+    """A mechanism that cannot exist, although its gears can exist."""
 
     __module__ = "centrode"
 
 
 class ExportError(Error):
-    """A file that cannot be made or written; the system's reason, if any, is the cause."""
+    """A file that cannot be created or written; an error of the system is its `__cause__`."""
 
     __module__ = "centrode"
 
 
 class InternalError(Error, RuntimeError):
-    """A fault of centrode, not of the input: please report it, with the input. Standard error has the details."""
+    """A fault of centrode, not of the input: please report it with the input. Standard error has the details."""
 
     __module__ = "centrode"

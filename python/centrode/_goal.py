@@ -3,32 +3,32 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """What a mechanism is to reach: a figure and its required range."""
+    """A goal of a mechanism: a figure and its required range."""
 
     __module__ = "centrode"
 
     number: int
-    """Number in its list, from one; 0 for a constraint of a search next to the goals."""
+    """Number in its list, from one; 0 for an additional constraint of a search."""
     paper: int | None
-    """Number in the paper that it is from, where that is another."""
+    """Number in the source paper, if it differs; otherwise None."""
     name: str
     """Short stable name."""
     title: str
-    """The goal in a few words."""
+    """Short description."""
     value: float | None
-    """The figure, in `unit`; None if it was not evaluated."""
+    """Figure, in `unit`; None if it was not evaluated."""
     required: tuple[float | None, float | None]
-    """Minimum and maximum of the figure; None where it is open."""
+    """Required minimum and maximum of the figure; None for no limit."""
     unit: str
     """"mm", "rad", or empty for a plain number."""
     scale: float
-    """Size of a miss that leaves half the progress, in `unit`."""
+    """Miss at which the progress is one half, in `unit`."""
     margin: float | None
-    """Distance of the figure from the nearest end of its range: positive inside, negative outside."""
+    """Distance of the figure from the nearest end of its range, in `unit`: positive inside, negative outside."""
     progress: float | None
-    """1 where the goal is reached, falling smoothly to 0 as the figure goes away from it."""
+    """1 if the goal is reached; it falls smoothly to 0 as the miss grows."""
     met: bool | None
-    """Whether it is reached; None if it was not evaluated."""
+    """Whether the goal is reached; None if it was not evaluated."""
 
     def __str__(self) -> str:
         """Number, title, figure and whether it is reached."""

@@ -9,24 +9,24 @@ from ._solid import Solid
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """How a link is carried by another one."""
+    """Joint between a link and the link that carries it."""
 
     __module__ = "centrode"
 
     name: str
-    """Name, as in the simulator models."""
+    """Name, the same as in the simulator models."""
     kind: Literal["fixed", "turning", "sliding"]
-    """How it moves."""
+    """Kind of motion."""
     parent: str
-    """Link that carries."""
+    """Name of the link that carries."""
     origin: tuple[float, float, float]
-    """Position of the carried link's origin in the frame of the one that carries, where the coordinate is zero, mm."""
+    """Origin of the carried link in the frame of the carrying link at the coordinate zero, mm."""
     turn: tuple[float, float, float]
-    """Turn of the carried link's frame there about x, then y, then z of the one that carries, rad."""
+    """Rotation of the carried link's frame at the coordinate zero about x, then y, then z of the carrying link, rad."""
     axis: tuple[float, float, float]
     """Unit vector of the axis, in the frame of the carried link."""
     range: tuple[float, float] | None
-    """Minimum and maximum coordinate of a sliding joint, mm; None for the others."""
+    """Minimum and maximum coordinate of a sliding joint, mm; None for other joints."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,9 +36,9 @@ class Mounted:
     __module__ = "centrode"
 
     name: str
-    """Name of its body; that of its files where it is made."""
+    """Name of its body; for a part to be made, also the name of its files."""
     frame: NDArray[float64]
-    """Its frame in that of the link, a (4, 4) matrix, mm."""
+    """Its frame in the frame of the link, a (4, 4) matrix, mm."""
     solids: tuple[Solid, ...]
     """Straight extrusions of its body, in its own frame; empty for a turned part."""
     step: bytes | None
@@ -52,14 +52,14 @@ class Link:
     __module__ = "centrode"
 
     name: str
-    """Name, as `Mechanism.frames` has it."""
+    """Name, as in `Mechanism.frames`."""
     joint: Joint | None
     """The joint that carries it; None for a fixed link."""
     part: str
-    """Part whose body it has, by the name of its files; empty where no single part is it."""
+    """Part that is its body, by the name of its files; empty if no single part is."""
     solids: tuple[Solid, ...]
-    """Straight extrusions of its body, in its frame; empty where there are none."""
+    """Straight extrusions of its body, in its frame; empty if there are none."""
     mesh: tuple[NDArray[float64], NDArray[uint32]] | None
-    """Vertices and triangles of a body of plane faces that is no extrusion, as of `Gear.mesh`; None for others."""
+    """Vertices and triangles of a body with plane faces that is no extrusion, as in `Gear.mesh`; None for others."""
     mounted: tuple[Mounted, ...]
-    """Its shafts and pins with their rings and keys."""
+    """Its shafts and pins, with their rings and keys."""

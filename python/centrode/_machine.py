@@ -1,4 +1,4 @@
-"""What the adapters read of machines: parts by name, links with bodies, and the coordinates of joints in a pose."""
+"""Data of machines for the adapters: parts by name, links with bodies, and coordinates of joints in a pose."""
 
 from __future__ import annotations
 
@@ -22,38 +22,38 @@ WHOLE = "assembly"
 """Name of the file of the whole machine."""
 
 LEAST = 1e-6
-"""Shortest edge that CAD kernels keep, mm: they take points nearer than a tenth of it for one."""
+"""Shortest edge that CAD kernels accept, mm: they treat points nearer than a tenth of it as one point."""
 
 COLORS = ("#3b6ea5", "#c98a2b", "#5b8c5a", "#8c5a7a", "#6b7a8f", "#a5523b", "#3f8f8b", "#9a8b3f")
 """Colors of links, one after the other."""
 
 
 def machine(of: Any) -> Mechanism:
-    """Refuse what is no machine."""
+    """Return the machine; raise an error for any other object."""
     if not isinstance(of, Mechanism):
-        raise TypeError(f"must be a machine, such as a GearPair or what centrode.load gives, not {type(of).__name__}")
+        raise TypeError(f"must be a machine, such as a GearPair or the result of load, not {type(of).__name__}")
     return of
 
 
 def angle(phi: float) -> float:
-    """Refuse an input that is no angle."""
+    """Return the input as a float; raise an error if it is not finite."""
     if not math.isfinite(phi):
         raise DesignError(f"phi must be a finite number, not {phi}", "phi")
     return float(phi)
 
 
 def shortest(tolerance: float) -> float:
-    """Refuse a tolerance that kernels cannot hold."""
+    """Return the tolerance; raise an error if it is too fine for CAD kernels."""
     if not tolerance >= LEAST or math.isinf(tolerance):
         raise DesignError(
-            f"tolerance must be at least {LEAST:g} mm, for CAD kernels keep no shorter edges, not {tolerance:g}",
+            f"tolerance must be at least {LEAST:g} mm, because CAD kernels accept no shorter edges, not {tolerance:g}",
             "tolerance",
         )
     return float(tolerance)
 
 
 def body(of: Gear | DiscCam | Mechanism, name: str | Part | None, tolerance: float) -> tuple[str, Solid | bytes]:
-    """Give a part's label, and its exact edges; its STEP file where it is no straight extrusion."""
+    """Return the label of a part with its exact edges, or with its STEP file if it is not a straight extrusion."""
     least = shortest(tolerance)
     if isinstance(of, Gear):
         return of.member, of.solid(least)

@@ -1,16 +1,16 @@
-"""Packages that the adapters speak to, imported when they are first needed."""
+"""Packages used by the adapters; they are imported at their first use."""
 
 from importlib import import_module
 from typing import Any
 
 
 def need(package: str, extra: str, provider: str = "") -> Any:
-    """Import a module; where its package is missing, say how to install it.
+    """Import a module; if its package is missing, the error states how to install it.
 
     Args:
         package: Module to import.
         extra: Package that installs it, and the name of the extra of centrode.
-        provider: The top-level module that is looked for; that of the package if left out.
+        provider: The top-level module that must be installed; default: that of `package`.
     """
     top = provider or package.partition(".")[0]
     try:

@@ -1,6 +1,6 @@
-"""Bodies of the Open CASCADE kernel from exact edges: what the adapters of build123d and CadQuery share.
+"""Bodies of the Open CASCADE kernel from exact edges, for the adapters of build123d and CadQuery.
 
-Imported only with the kernel at hand, by one of them.
+One of the adapters imports it, only if the kernel is installed.
 """
 
 # mypy: disable-error-code="import-untyped, import-not-found"
@@ -44,7 +44,7 @@ except ImportError:  # Before version 8 of the kernel.
     from OCP.TColgp import TColgp_Array1OfPnt as _Points
 
 _CLOSE = 1e-7
-"""Distance under which the kernel takes two points for one, mm."""
+"""Distance below which the kernel treats two points as one, mm."""
 
 _to_solid = getattr(TopoDS, "Solid_s", None) or TopoDS.Solid
 
@@ -69,9 +69,9 @@ def part(of: Solid | bytes) -> Any:
 
 
 def link(machine: Mechanism, of: Link) -> tuple[Any, bool]:
-    """Make a link's body with what is mounted on it.
+    """Make the body of a link with its mounted parts.
 
-    A shape, and whether it is one solid; else it is a compound of none or several.
+    Returns the shape, and whether it is one solid; otherwise it is a compound of none or several solids.
     """
     shape, is_solid = _body(machine, of)
     if not of.mounted:
@@ -103,18 +103,18 @@ def step(contents: bytes) -> Any:
         path.write_bytes(contents)
         reader = STEPControl_Reader()
         if reader.ReadFile(str(path)) != IFSelect_RetDone:
-            raise ExportError("the kernel cannot read the STEP file of the part")
+            raise ExportError("the CAD kernel cannot read the STEP file of the part")
         reader.TransferRoots()
         return _only(reader.OneShape())
 
 
 def polyhedra(vertices: NDArray[float64], faces: NDArray[Any]) -> Any:
-    """Make a compound of the closed bodies that triangles bound, a plane face each."""
+    """Make a compound of the closed bodies bounded by triangles, with one plane face per triangle."""
     return compound([_polyhedron(vertices, part) for part in _apart(faces, len(vertices))])
 
 
 def compound(shapes: Sequence[Any]) -> Any:
-    """Put shapes into one."""
+    """Make a compound of shapes."""
     builder, whole = BRep_Builder(), TopoDS_Compound()
     builder.MakeCompound(whole)
     for shape in shapes:
@@ -144,7 +144,7 @@ def _wire(builder: Any, contour: Sequence[Edge], z: float) -> Any:
         made = _edge(side, start, end, z)
         if not made.IsDone():
             x, y = side.points[0].tolist()
-            raise ExportError(f"the kernel makes no edge of the {side.kind} that begins at ({x:g}, {y:g}) mm")
+            raise ExportError(f"the CAD kernel cannot make an edge of the {side.kind} that begins at ({x:g}, {y:g}) mm")
         builder.Add(wire, made.Edge())
     wire.Closed(True)
     return wire
@@ -155,7 +155,7 @@ def _edge(side: Edge, start: Any, end: Any, z: float) -> Any:
         return BRepBuilderAPI_MakeEdge(start, end)
     if side.center is not None:
         (x, y), (center_x, center_y) = side.points[0].tolist(), side.center
-        # The circle begins where the arc does, and runs as it turns.
+        # The circle begins at the start of the arc, and has its direction.
         way = gp_Dir(0.0, 0.0, math.copysign(1.0, side.sweep))
         axes = gp_Ax2(gp_Pnt(center_x, center_y, z), way, gp_Dir(x - center_x, y - center_y, 0.0))
         circle = Geom_Circle(axes, math.hypot(x - center_x, y - center_y))
@@ -168,7 +168,7 @@ def _edge(side: Edge, start: Any, end: Any, z: float) -> Any:
 
 
 def _tool(opening: Opening) -> Any:
-    """What an opening takes away: straight on past both walls by half of what lies between them."""
+    """Tool body that cuts an opening; it extends beyond both walls by half of their distance."""
     first, second, third, fourth = opening.corners
     one, other = 0.5 * (first - fourth), 0.5 * (second - third)
     low, high = opening.span
@@ -183,7 +183,7 @@ def _tool(opening: Opening) -> Any:
 
 
 def _apart(faces: NDArray[Any], count: int) -> list[list[list[int]]]:
-    """Triangles by the bodies that they bound: those that share vertices."""
+    """Triangles grouped by body: triangles of a body share vertices."""
     first = list(range(count))
 
     def root(vertex: int) -> int:
@@ -241,5 +241,5 @@ def _only(shape: Any) -> Any:
     """The one solid of a shape."""
     solids = list(_uses(shape, TopAbs_SOLID))
     if len(solids) != 1:
-        raise ExportError(f"the kernel makes {len(solids)} solids of one part")
+        raise ExportError(f"the CAD kernel made {len(solids)} solids from one part; there must be one")
     return _to_solid(solids[0])

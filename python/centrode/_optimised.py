@@ -12,24 +12,24 @@ M = TypeVar("M", bound="Mechanism", covariant=True)
 
 @dataclass(frozen=True, slots=True)
 class Optimised(Generic[M]):
-    """What a search for a better design has come to."""
+    """Result of a search for a better design."""
 
     __module__ = "centrode"
 
     mechanism: M
-    """The best found."""
+    """The best mechanism found."""
     goals: tuple[Goal, ...]
-    """Its goals, and with number 0 the other limits."""
+    """Its goals, and, with number 0, the additional constraints."""
     steps: tuple[str, ...]
-    """What a guided search moved, for which goal, and why; empty for another."""
+    """Steps of a guided search: the changed parameters, the goal and the gain; empty for another method."""
     evaluations: int
-    """Points evaluated."""
+    """Number of points evaluated."""
     ended: str
-    """"target", "evaluations", "stopped" or "stuck"."""
+    """Reason for the end: "target", "evaluations", "stopped" or "stuck"."""
     history: tuple[tuple[int, float, float], ...]
-    """Evaluations, violation and objective of the best after each generation, or after each guided step."""
+    """Evaluations, violation and objective of the best point after each generation or each guided step."""
     remark: str | None
-    """Why no better one can be had, or why it says little; None where there is nothing to say."""
+    """Why there is no better result, or why the result means little; None if there is no remark."""
 
     @property
     def reached(self) -> bool:

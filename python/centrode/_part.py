@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part that a shop makes or buys: a line of the parts list."""
+    """A part to make or buy: a line of the parts list."""
 
     __module__ = "centrode"
 
@@ -12,13 +12,13 @@ class Part:
     quantity: int
     """Number of pieces in a machine."""
     links: tuple[str, ...]
-    """Links that the pieces belong to, as `Mechanism.frames` names them: one for each piece."""
+    """Link of each piece, named as in `Mechanism.frames`."""
     material: str
-    """Material; empty where the design says nothing of it."""
+    """Material; empty if the design gives none."""
     mass: float | None
-    """Mass of one piece, kg; None where it is not known."""
+    """Mass of one piece, kg; None if it is not known."""
     file: str
-    """Name that its drawings, sheets and solids begin with; empty for a part without files."""
+    """First part of the names of its drawings, sheets and solids; empty for a part without files."""
     remark: str
     """Remark."""
 

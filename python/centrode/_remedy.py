@@ -9,15 +9,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PairRemedy:
-    """Teeth that carry the motion of a pair by their flanks alone."""
+    """Teeth whose flanks alone transmit the motion of a pair."""
 
     __module__ = "centrode"
 
     addendum: Literal["full", "fitted"]
     """Height of the teeth."""
     fit: tuple[Literal["thickness_split", "pressure_angle", "phase"], ...]
-    """What was chosen next to it, and is written in the pair."""
+    """Other optimised parameters; the pair contains their values."""
     minimum_tooth_count: int
-    """Tooth count of the driver at which they do, and with one step fewer do not; a greater one may fail again."""
+    """Tooth count of the driver with which they do, but with one step less do not; a larger count may fail again."""
     pair: GearPair
-    """The pair with such teeth, as many as it had where those are enough."""
+    """The pair with such teeth; it has its original tooth count if that is enough."""

@@ -7,23 +7,23 @@ from ._goal import Goal
 
 @dataclass(frozen=True, slots=True)
 class FlankPlace:
-    """Side of a tooth, and from where on a finding holds there."""
+    """Side of a tooth, and the radius at which its flank ends."""
 
     __module__ = "centrode"
 
     tooth: int
     """Tooth number, from zero."""
     side: Literal["leading", "trailing"]
-    """The flank reached first, or last, in the order the teeth mesh."""
+    """The flank that comes first ("leading") or last ("trailing") in the order in which the teeth mesh."""
     radius: float | None
-    """Distance from the gear's axis at which the flank ends, mm; None where no flank is left.
+    """Distance from the gear's axis at which the flank ends, mm; None if no flank is left.
 
-    Below it undercut has taken the flank, or above it no more can be cut."""
+    Below it the flank is lost by undercut, or above it no flank can be cut."""
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where in the mechanism and its cycle a finding was made."""
+    """Position of a finding in the mechanism and its cycle."""
 
     __module__ = "centrode"
 
@@ -34,31 +34,31 @@ class Place:
     input: float | None
     """Input angle, rad."""
     flanks: tuple[FlankPlace, ...] = ()
-    """Sides of these teeth, where the finding is about flanks."""
+    """Sides of these teeth, if the finding is about flanks."""
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A way in which a mechanism is worse than it should be: measured, required, where."""
+    """A problem of a mechanism, with measured and required figure and its position."""
 
     __module__ = "centrode"
 
     rule: str
     """Short stable name of the rule."""
     severity: Literal["note", "warning", "error"]
-    """How much it matters: an error means the part does not do its job."""
+    """Severity; an error means that the part does not fulfil its function."""
     message: str
-    """One sentence for a person."""
+    """Description in one sentence."""
     measured: float | None
-    """The measured figure, in `unit`."""
+    """Measured figure, in `unit`."""
     required: float | None
-    """The figure it is held against, in `unit`."""
+    """Required figure, in `unit`."""
     unit: str
     """Unit of both figures, such as "mm" or "rad"; empty for a plain number."""
     remedy: str | None
-    """What usually helps."""
+    """Usual remedy."""
     place: Place
-    """Where it was found."""
+    """Position."""
 
     def __str__(self) -> str:
         """Severity and message."""
@@ -74,13 +74,13 @@ class Table:
     name: str
     """Short stable name."""
     title: str
-    """What the figures are."""
+    """Description of the figures."""
     unit: str
     """Unit of every figure, such as "mm" or "rad"; empty for plain numbers."""
     columns: tuple[str, ...]
-    """What each column is of."""
+    """Heading of each column."""
     rows: Mapping[str, tuple[float, ...]]
-    """Figures of each row by its name."""
+    """Figures of each row, by the name of the row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,20 +90,20 @@ class Report:
     __module__ = "centrode"
 
     ok: bool
-    """True when no finding is an error."""
+    """True if no finding is an error."""
     findings: tuple[Finding, ...]
-    """What is wrong or worth knowing, worst first."""
+    """Findings, the most severe first."""
     values: Mapping[str, float]
     """Figures by name."""
     units: Mapping[str, str]
     """Unit of each figure, such as "mm" or "rad"; empty for a plain number."""
     goals: tuple[Goal, ...] = ()
-    """What it is to reach, if its design says."""
+    """Goals, if the design has any."""
     tables: tuple[Table, ...] = ()
     """Figures in rows and columns."""
 
     def __str__(self) -> str:
-        """Every figure, every goal and every finding, a line each."""
+        """Every figure, goal and finding, one per line."""
         width = max(map(len, self.values), default=0)
         figures = [f"{name:{width}}  {value:.6g} {self.units[name]}".rstrip() for name, value in self.values.items()]
         return "\n".join([*figures, *map(str, self.goals), *map(str, self.findings)])

@@ -11,13 +11,13 @@ def _ending(path: Path, known: tuple[str, ...]) -> str:
     """The ending of a path, one of those known."""
     ending = path.suffix.removeprefix(".").lower()
     if ending not in known:
-        raise DesignError(f"path must be one of {', '.join(known)}, not {ending!r}", "path")
+        raise DesignError(f"path must end in one of {', '.join(known)}, not {ending!r}", "path")
     return ending
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Sheets:
-    """The drawing sheets of a gear, or of both in place, as `Gear.sheet` and `GearPair.sheet` lay them out.
+    """The drawing sheets of a gear or of an assembled pair, made by `Gear.sheet` and `GearPair.sheet`.
 
     >>> import centrode as ct
     >>> sheets = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.sheet(size="A3")
@@ -32,16 +32,16 @@ class Sheets:
     size: Literal["A4", "A3", "A2", "A1", "A0"]
     """Size of the sheets."""
     dxf: tuple[bytes, ...]
-    """A DXF file a sheet, R2010, in paper millimetres."""
+    """One DXF file per sheet, R2010, in millimetres of the paper."""
     svg: tuple[bytes, ...]
-    """An SVG picture a sheet."""
+    """One SVG picture per sheet."""
     pdf: bytes
-    """One PDF, a page a sheet."""
+    """One PDF file with one page per sheet."""
 
     def write(self, path: str | PathLike[str]) -> list[Path]:
-        """Write the sheets in the format the path ends in, .pdf, .dxf or .svg; give the paths.
+        """Write the sheets in the format of the ending of the path, .pdf, .dxf or .svg; return the paths.
 
-        Several sheets make one PDF, but a file each of the others: name-1.dxf, name-2.dxf.
+        Several sheets give one PDF file, but one file per sheet in the other formats: name-1.dxf, name-2.dxf.
         """
         path = Path(path)
         files = {"pdf": (self.pdf,), "dxf": self.dxf, "svg": self.svg}
@@ -61,7 +61,7 @@ class Sheets:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Drawing:
-    """The cutting drawing of a gear: profile and bore, and lines of reference.
+    """The cutting drawing of a gear: profile, bore and reference lines.
 
     >>> import centrode as ct
     >>> drawing = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.drawing()
@@ -74,10 +74,10 @@ class Drawing:
     dxf: bytes
     """DXF R2010: closed contours of lines and arcs."""
     svg: bytes
-    """A picture of the same."""
+    """SVG picture of the same drawing."""
 
     def write(self, path: str | PathLike[str]) -> Path:
-        """Write the drawing in the format the path ends in, .dxf or .svg; give the path."""
+        """Write the drawing in the format of the ending of the path, .dxf or .svg; return the path."""
         path = Path(path)
         files = {"dxf": self.dxf, "svg": self.svg}
         return _write(path, files[_ending(path, tuple(files))])

@@ -15,11 +15,11 @@ class Edge:
     kind: Literal["line", "arc", "spline"]
     """A straight line, an arc of a circle, or a polynomial curve by its Bézier points."""
     points: NDArray[float64]
-    """Both ends, or all control points of a spline, (N, 2), mm."""
+    """Both end points, or all control points of a spline, (N, 2), mm."""
     center: tuple[float, float] | None
-    """Center of an arc, mm; None for what is none."""
+    """Center of an arc, mm; None for other kinds."""
     sweep: float
-    """Angle that an arc turns through, rad, counter-clockwise positive; zero for what is none."""
+    """Angle of an arc, rad, counter-clockwise positive; zero for other kinds."""
 
     @property
     def degree(self) -> int:
@@ -28,7 +28,7 @@ class Edge:
 
     @property
     def knots(self) -> NDArray[float64]:
-        """Knot vector of a spline, each end as often as its order; empty for what is none."""
+        """Knot vector of a spline, each end repeated as often as its order; empty for other kinds."""
         return np.repeat([0.0, 1.0], len(self.points)) if self.kind == "spline" else np.empty(0)
 
 
@@ -39,14 +39,14 @@ class Opening:
     __module__ = "centrode"
 
     corners: NDArray[float64]
-    """Its corners seen along z, (4, 2), mm, counter-clockwise: both on the outer contour, then both on the hole."""
+    """Corners seen along z, (4, 2), mm, counter-clockwise: two on the outer contour, then two on the hole."""
     span: tuple[float, float]
     """Lower and upper end along z, mm."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solid:
-    """A straight extrusion along z by its exact edges, for CAD kernels."""
+    """A straight extrusion along z with exact edges, for CAD kernels."""
 
     __module__ = "centrode"
 
@@ -57,6 +57,6 @@ class Solid:
     top: float
     """Upper face, mm."""
     opening: Opening | None
-    """The opening through a wall; None where there is none."""
+    """Opening through a wall; None if there is none."""
     volume: float
     """Volume, mm^3: by Green's theorem on the exact contours."""

@@ -15,7 +15,7 @@ Pool: TypeAlias = Executor | Callable[[], Executor] | None
 Ask = TypeVar("Ask")
 Answer = TypeVar("Answer")
 
-# Handed over at once, by default: some seconds' checks, some tens of milliseconds' variants.
+# Default chunks: checks of some seconds, and variants of some tens of milliseconds.
 _DESIGNS = 32
 _VARIANTS = 4096
 
@@ -52,28 +52,29 @@ def sweep(
     chunk: int | None = None,
     attempts: int = 3,
 ) -> list[Figures | None] | Columns:
-    """Look at many designs, spread over an executor.
+    """Evaluate many designs with an executor.
 
-    Many designs: each is checked as a whole; the answer has the figures of each by name, goals and report alike, in
-    order, and None where there is no mechanism. One three-arm design with `over`: its variants in these parameters,
-    about twenty microseconds each; the answer is that of `ThreeArm.sweep`, with NaN for a variant whose numbers a
-    design file may not have.
+    Many designs: each design gets the whole check. The result is a list in the same order, with the figures of each
+    design by name, both of goals and of the report; None if there is no mechanism.
 
-    The numbers are those of one process, whatever the executor and the chunk. Each chunk's answer is kept as it comes:
-    where an executor breaks, such as a process pool of which a worker was killed, only the chunks without an answer are
-    asked again.
+    One three-arm design with `over`: its variants in these parameters, about twenty microseconds each. The result is
+    that of `ThreeArm.sweep`; NaN for a variant with a number that a design file does not allow.
+
+    The numbers do not depend on the executor and on the chunk. If an executor breaks, for example because a worker of a
+    process pool was killed, only the chunks without a result are computed again.
 
     Args:
         designs: Design files as text, or mechanisms; with `over` one three-arm design.
-        over: Values by parameter: arrays of one length, or single numbers, as `ThreeArm.sweep` takes them.
-        inputs: As `ThreeArm.sweep` takes them.
-        executor: Any `concurrent.futures.Executor`, as of `dask.distributed.Client.get_executor()`; or what makes one,
-            which is asked for another where one breaks, and shut down at the end. Left out, this process.
-        chunk: Designs handed over at once, 32 if left out; with `over` 4096.
-        attempts: How often in all a chunk is tried where executors break.
+        over: Values by parameter: arrays of one length, or single numbers, as for `ThreeArm.sweep`.
+        inputs: As for `ThreeArm.sweep`.
+        executor: Any `concurrent.futures.Executor`, such as that of `dask.distributed.Client.get_executor()`; or a
+            function that makes one: it is called again if an executor breaks, and its executors are shut down at the
+            end. Default: this process.
+        chunk: Designs per task; default: 32, and 4096 with `over`.
+        attempts: Maximum number of attempts per chunk if executors break.
 
     Raises:
-        BrokenExecutor: It broke, and there is no other.
+        BrokenExecutor: The executor broke, and no attempt or no function for another one is left.
 
     >>> import centrode as ct
     >>> text = ct.template("three-arm")
@@ -92,7 +93,7 @@ def sweep(
             raise TypeError("with over, designs must be one three-arm design")
         return _variants(designs, over, inputs, executor, chunk, attempts)
     if isinstance(designs, str | ThreeArm):
-        raise TypeError("designs must be several designs, or over must say what varies")
+        raise TypeError("designs must be several designs, or over must be given")
     texts = [_text(number, design) for number, design in enumerate(designs)]
     if executor is None:
         return _figures(texts)
@@ -142,7 +143,7 @@ def _part(part: tuple[str, Columns, int]) -> Columns:
 def _spread(
     work: Callable[[Ask], Answer], chunks: list[Ask], executor: Executor | Callable[[], Executor], attempts: int
 ) -> list[Answer]:
-    """The answers to all chunks, in order, as often as an executor breaks with another one."""
+    """The results of all chunks, in order; a broken executor is replaced by another one."""
     answers: dict[int, Answer] = {}
     for attempt in range(attempts):
         pool = executor if isinstance(executor, Executor) else executor()
@@ -159,7 +160,7 @@ def _spread(
 
 
 def _ask(pool: Executor, work: Callable[[Ask], Answer], chunks: list[Ask], answers: dict[int, Answer]) -> None:
-    """Ask a pool for every chunk without an answer, and keep each answer as it comes."""
+    """Submit every chunk without a result to a pool, and store each result."""
     asked: dict[Future[Answer], int] = {}
     broken: BrokenExecutor | None = None
     for index, chunk in enumerate(chunks):

@@ -12,32 +12,32 @@ class ToothSide:
     tip_height: float
     """Height of the tip corner above the pitch curve."""
     tip_shortening: float
-    """How much lower the tip corner is than requested: pitch curve or tool allow no more flank."""
+    """Required tip height minus actual tip height; positive if pitch curve or tool limit the flank."""
     form_depth: float
-    """Depth below the pitch curve that the tool's straight flank reaches."""
+    """Depth below the pitch curve to which the straight flank of the tool cuts."""
     active_depth: float
-    """Arc length of roll below the crossing down to which the flank is needed."""
+    """Arc length of roll below the crossing to which the flank is required."""
     undercut: float
-    """Length of needed flank lost to undercut, in arc length of roll; zero for a sound tooth."""
+    """Length of required flank lost to undercut, in arc length of roll; zero for a sound tooth."""
     active: tuple[float, float] | None
-    """Arc lengths of roll between which flank is left; None when nothing is."""
+    """Arc lengths of roll between which the flank is left; None if no flank is left."""
     fillet_radius: float
     """Minimum radius of curvature of the fillet."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tooth:
-    """A finished tooth; numbered in the order the teeth mesh."""
+    """A finished tooth; teeth are numbered in the order in which they mesh."""
 
     __module__ = "centrode"
 
     number: int
-    """From zero."""
+    """Number, from zero."""
     leading: ToothSide
-    """Side with the flank reached first."""
+    """Side whose flank comes first in the order of mesh."""
     trailing: ToothSide
-    """Side with the flank reached last."""
+    """Side whose flank comes last in the order of mesh."""
     tip_width: float
     """Width of the top land, mm; zero for a pointed or missing tooth."""
     cut_through: bool
-    """True when undercut from both sides has cut the tooth off."""
+    """True if undercut from both sides has cut off the tooth."""

@@ -1,6 +1,6 @@
-"""Parts and assemblies for build123d; needs it: ``pip install build123d``.
+"""Parts and assemblies for build123d; install it with ``pip install build123d``.
 
-Edges are exact: lines, arcs and Bézier curves of the library's own polynomials, so nothing is fitted again.
+Edges are exact: lines, arcs and Bézier curves with the library's own polynomials, without approximation.
 """
 
 # mypy: disable-error-code="import-untyped, import-not-found"
@@ -27,14 +27,14 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
 
     Args:
         of: A gear, a disc cam, or a machine.
-        name: Part of the machine: one of its `parts()`, or the name that its files begin with.
-        tolerance: Sides shorter than this, mm, are closed up: the kernel takes them for points.
+        name: Part of the machine: one of its `parts()`, or the first part of its file names.
+        tolerance: Sides shorter than this, mm, are removed, because the kernel treats them as points.
 
     Returns:
         A solid in the part's own frame, labelled with its name.
 
     Raises:
-        DesignError: The machine has no such part, or none with a solid; or the tolerance is too fine.
+        DesignError: The machine has no such part, the part has no solid, or the tolerance is too fine.
     """
     b3d = _build123d()
     label, found = _machine.body(of, name, tolerance)
@@ -42,14 +42,14 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
 
 
 def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _b3d.Compound:
-    """Make a machine: a child for each link, labelled with its name, with the joints between them, posed.
+    """Make the assembly of a machine at an input: one child per link, labelled with its name, and the joints.
 
-    A joint has the name that the simulator models give it, `driven_joint`: on the link that carries a RevoluteJoint, a
-    LinearJoint or a RigidJoint, on the link carried a RigidJoint. The first link stands still where the assembly does.
+    A joint has the same name as in the simulator models, such as `driven_joint`. It is a RevoluteJoint, LinearJoint or
+    RigidJoint on the carrying link, and a RigidJoint on the carried link. The first link is fixed in the assembly.
 
     Args:
         of: The machine.
-        phi: Input, rad, at which it stands.
+        phi: Input of the pose, rad.
         tolerance: As for `part`.
     """
     b3d = _build123d()
@@ -71,11 +71,11 @@ def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _b3
 
 
 def pose(assembly: _b3d.Compound, of: Mechanism, phi: float) -> None:
-    """Move the links of an assembly to where their laws have them at an input, joint by joint.
+    """Move the links of an assembly to their positions at an input, joint by joint.
 
     Args:
-        assembly: What `assembly` made.
-        of: The machine that it was made of.
+        assembly: Result of `assembly`.
+        of: The machine of the assembly.
         phi: Input, rad.
     """
     _build123d()
@@ -131,7 +131,7 @@ def _connect(b3d: Any, link: Link, made: dict[str, Any]) -> None:
         b3d.RigidJoint(joint.name, child, joined.location)
         return
     joined = b3d.LinearJoint(joint.name, carrier, along, linear_range=joint.range or (-math.inf, math.inf))
-    # This joint leaves what slides turned as what carries it.
+    # This joint gives the sliding link the orientation of the carrying link.
     b3d.RigidJoint(joint.name, child, carrier.location * b3d.Location(joined.relative_axis.position))
 
 

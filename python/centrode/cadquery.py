@@ -1,6 +1,6 @@
-"""Parts and assemblies for CadQuery; needs it: ``pip install cadquery``.
+"""Parts and assemblies for CadQuery; install it with ``pip install cadquery``.
 
-Edges are exact: lines, arcs and Bézier curves of the library's own polynomials, so nothing is fitted again.
+Edges are exact: lines, arcs and Bézier curves with the library's own polynomials, without approximation.
 """
 
 # mypy: disable-error-code="import-untyped, import-not-found"
@@ -26,14 +26,14 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
 
     Args:
         of: A gear, a disc cam, or a machine.
-        name: Part of the machine: one of its `parts()`, or the name that its files begin with.
-        tolerance: Sides shorter than this, mm, are closed up: the kernel takes them for points.
+        name: Part of the machine: one of its `parts()`, or the first part of its file names.
+        tolerance: Sides shorter than this, mm, are removed, because the kernel treats them as points.
 
     Returns:
         A workplane with the solid in the part's own frame.
 
     Raises:
-        DesignError: The machine has no such part, or none with a solid; or the tolerance is too fine.
+        DesignError: The machine has no such part, the part has no solid, or the tolerance is too fine.
     """
     cq = _cadquery()
     _, found = _machine.body(of, name, tolerance)
@@ -41,11 +41,11 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
 
 
 def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq.Assembly:
-    """Make a machine: a child for each link with a body, named after it, at the place where its law has it.
+    """Make the assembly of a machine at an input: one child per link with a body, with the name of the link.
 
     Args:
         of: The machine.
-        phi: Input, rad, at which it stands.
+        phi: Input of the pose, rad.
         tolerance: As for `part`.
     """
     cq = _cadquery()
@@ -64,11 +64,11 @@ def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq
 
 
 def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
-    """Move the links of an assembly to where their laws have them at an input.
+    """Move the links of an assembly to their positions at an input.
 
     Args:
-        assembly: What `assembly` made.
-        of: The machine that it was made of.
+        assembly: Result of `assembly`.
+        of: The machine of the assembly.
         phi: Input, rad.
     """
     cq = _cadquery()
@@ -76,7 +76,7 @@ def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
     frames = machine.frames(_machine.angle(phi))
     for child in assembly.children:
         if child.name not in frames:
-            raise ValueError(f"the assembly is not of this machine, which has no link {child.name!r}")
+            raise ValueError(f"the assembly is not of this machine: the machine has no link {child.name!r}")
     for child in assembly.children:
         child.loc = cq.Location(_kernel().location(frames[child.name]))
 

@@ -1,6 +1,6 @@
-"""Motion laws, followers, forks and segments of motion for `DiscCam`, by the keys they have in a design file.
+"""Motion laws, followers, forks and motion segments for `DiscCam`, with the keys of a design file.
 
-Angles are radians of cam angle; a lift is millimetres of a slide, a swing radians of an arm.
+Cam angles are in radians. A lift of a slide is in millimetres, a swing of an arm in radians.
 """
 
 from ._centrode import (

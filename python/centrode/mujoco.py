@@ -1,4 +1,4 @@
-"""Models for MuJoCo that follow the laws of a machine; needs it: ``pip install mujoco``.
+"""Models for MuJoCo that follow the laws of a machine; install it with ``pip install mujoco``.
 
 The model is the one that `export` writes, and the laws are those of its `motion.json` and `motion.csv`.
 """
@@ -31,16 +31,17 @@ __all__ = ["Control", "load"]
 def load(
     of: Mechanism, *, speed: float | None = None, contact: bool = False, tolerance: float = 1e-2
 ) -> tuple[_mj.MjModel, Control]:
-    """Make the model of a machine and what moves it by its laws.
+    """Make the model of a machine and the control that moves it by its laws.
 
     Args:
-        of: The machine, of whatever family.
-        speed: Speed of the input, rad/s; that of the design if left out, negative to run it back.
-        contact: Whether bodies touch. They need not where all are moved by their laws, and steps are quicker.
+        of: A machine of any family.
+        speed: Speed of the input, rad/s; default: that of the design. Negative: backwards.
+        contact: Whether contact between bodies is computed. It is not needed if all bodies move by their laws, and
+            steps are faster without it.
         tolerance: Maximum distance of the meshes from the exact solids, mm.
 
     Returns:
-        The model, and its control: hand it to `mujoco.set_mjcb_control`, or step with it.
+        The model and its control. Pass the control to `mujoco.set_mjcb_control`, or call its `step`.
     """
     mujoco = need("mujoco", "mujoco")
     files = _machine.machine(of).files(formats=["mjcf"], tolerance=tolerance)
@@ -60,17 +61,17 @@ def load(
 class Control:
     """Forces that keep every joint of a model on its law, by inverse dynamics.
 
-    Called by MuJoCo with model and data at every step, it sets `qfrc_applied` so that each joint is where its law has
-    it at the end of the step. The input turns evenly and is zero when the time is. The model's integrator must stay
-    Euler's, which it has from its file.
+    MuJoCo calls it with model and data at every step. It sets `qfrc_applied` so that each joint is at the position of
+    its law at the end of the step. The input has constant speed, and is zero at time zero. The integrator of the model
+    must be Euler's, as in the model file.
     """
 
     joints: tuple[str, ...]
-    """Names of the joints, as the model has them."""
+    """Names of the joints, as in the model."""
     speed: float
     """Speed of the input, rad/s."""
     period: float
-    """Input after which every law repeats, up to its advance, rad."""
+    """Input after which every law repeats, apart from its advance, rad."""
     _places: NDArray[float64]
     _rates: NDArray[float64]
     _advances: NDArray[float64]
@@ -78,9 +79,9 @@ class Control:
     _dofs: NDArray[intp]
 
     def law(self, travel: float) -> tuple[NDArray[float64], NDArray[float64]]:
-        """Positions of the joints at a travel of the input, rad or m, and their rates by it.
+        """Positions of the joints at an input `travel`, rad or m, and their rates with respect to it.
 
-        Between the rows of the table by cubic Hermite, as `motion.json` says.
+        Values between the rows of the table are by cubic Hermite interpolation, as stated in `motion.json`.
         """
         steps = self._places.shape[1] - 1
         step = self.period / steps
@@ -94,18 +95,18 @@ class Control:
         return place + whole * self._advances, rate
 
     def place(self, model: _mj.MjModel, data: _mj.MjData) -> None:
-        """Put every joint where its law has it at the time of the data, at the rate that it has there."""
+        """Set every joint to the position and the rate of its law at the time of the data."""
         place, rate = self.law(self.speed * data.time)
         data.qpos[self._qpos], data.qvel[self._dofs] = place, self.speed * rate
         need("mujoco", "mujoco").mj_forward(model, data)
 
     def off(self, data: _mj.MjData) -> dict[str, float]:
-        """How far each joint is off its law at the time of the data, rad or m."""
+        """Deviation of each joint from its law at the time of the data, rad or m."""
         place, _ = self.law(self.speed * data.time)
         return dict(zip(self.joints, (data.qpos[self._qpos] - place).tolist(), strict=True))
 
     def step(self, model: _mj.MjModel, data: _mj.MjData, count: int = 1) -> None:
-        """Go on by some steps, without a callback that is set for all models of the process."""
+        """Simulate some steps, without a callback, which would apply to all models of the process."""
         mujoco = need("mujoco", "mujoco")
         for _ in range(count):
             mujoco.mj_step1(model, data)
@@ -116,7 +117,7 @@ class Control:
         """Set the forces of the step that begins at the time of the data."""
         mujoco = need("mujoco", "mujoco")
         if model.opt.integrator != mujoco.mjtIntegrator.mjINT_EULER:
-            raise ValueError("the integrator of the model must be Euler's: forces are found for one step of it")
+            raise ValueError("the integrator of the model must be Euler's: the forces are computed for its step")
         step = model.opt.timestep
         wanted, _ = self.law(self.speed * (data.time + step))
         # Euler's method makes the new rate first, then the new position by it.

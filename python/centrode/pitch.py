@@ -1,4 +1,4 @@
-"""Pitch curves, each by the keys it has in a design file (angles in radians).
+"""Pitch curves, each with its keys of a design file (angles in radians).
 
 A curve with `module` and `tooth_count` has the length pi * module * tooth_count.
 """

@@ -1,6 +1,6 @@
-"""Pictures of gear pairs and machines; needs matplotlib: ``pip install matplotlib``.
+"""Plots of gear pairs and machines; install matplotlib with ``pip install matplotlib``.
 
-Every function draws into the given axes, or into new ones, and gives back what it drew in.
+Every function draws into the given axes or into new axes, and returns these axes.
 """
 
 from __future__ import annotations
@@ -42,17 +42,17 @@ __all__ = [
 _DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
 _MET, _MISSED = "#3a7d44", "#b23a48"
 _FINE = 1e-2
-"""Tolerance of what is drawn, in modules: below a pixel on any screen."""
+"""Tolerance of drawn outlines, in modules: below a pixel on any screen."""
 
 
 def pair(pair: GearPair, phi: float = 0.0, ax: Axes | None = None, *, pitch_curves: bool = True) -> Axes:
     """Draw both gears in mesh at a driver angle.
 
     Args:
-        pair: What to draw.
+        pair: Gear pair to draw.
         phi: Driver angle, rad.
-        ax: Where to; new axes if left out.
-        pitch_curves: Whether the pitch curves are drawn too.
+        ax: Axes to draw into; default: new axes.
+        pitch_curves: Whether to draw also the pitch curves.
     """
     scene = _Scene(pair, ax or _axes((8.0, 6.0)), pitch_curves=pitch_curves)
     scene.turn(phi)
@@ -70,14 +70,14 @@ def animate(
     """Animate the mesh over one driver turn.
 
     Args:
-        pair: What to show.
-        path: File to write, .gif or .html; none is written if left out.
-        frames: Pictures of the turn.
-        fps: Pictures a second.
-        ax: Where to draw; new axes if left out.
+        pair: Gear pair to show.
+        path: File to write, .gif or .html; default: no file.
+        frames: Number of pictures of the turn.
+        fps: Pictures per second.
+        ax: Axes to draw into; default: new axes.
 
     Returns:
-        The animation; keep it as long as it is to be shown.
+        The animation; keep a reference to it while it is shown.
     """
     with _matplotlib():
         from matplotlib.animation import FuncAnimation
@@ -101,7 +101,7 @@ def animate(
 
 
 def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
-    """Draw the ratio over one driver turn, and how far the driven angle leads the mean ratio."""
+    """Draw the ratio over one driver turn, and the driven angle minus that of the mean ratio."""
     ax = ax or _axes((8.0, 4.5))
     phi = np.linspace(0.0, 2.0 * np.pi, 721)
     turns, driven_turns = pair.mean_ratio
@@ -113,7 +113,7 @@ def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
     ax.set_xticks(range(0, 361, 60))
     twin = ax.twinx()
     lead = np.degrees(pair.driven_angle(phi) - mean * phi)
-    (swing,) = twin.plot(degrees, lead, color=_DRIVEN, linestyle="--", label="driven angle less the mean")
+    (swing,) = twin.plot(degrees, lead, color=_DRIVEN, linestyle="--", label="driven angle minus mean")
     twin.set_ylabel("deg")
     ax.legend(handles=[ratio, swing], loc="best")
     ax.set_title(pair.title or pair.name)
@@ -123,13 +123,13 @@ def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
 def moving(
     *machines: SpiralShaft | MovingBox, turns: float = 1.0, start: float = -np.pi, ax: Axes | None = None
 ) -> Axes:
-    """Draw where the box is over the input's turn, next to a plain shaft: Figures 3 and 11 of Zhou et al. 2018.
+    """Draw the position of the box over the input angle, also for a plain shaft: Figures 3 and 11 of Zhou et al. 2018.
 
     Args:
-        machines: Shafts or moving boxes, a line each.
-        turns: How many turns of the input are drawn.
-        start: Input angle at which they begin, rad.
-        ax: Where to draw; new axes if left out.
+        machines: Shafts or moving boxes, one curve each.
+        turns: Number of turns of the input to draw.
+        start: Input angle at which the curves begin, rad.
+        ax: Axes to draw into; default: new axes.
     """
     ax, angles = _over_input(machines, turns, start, ax)
     lead = machines[0].moved(start, start + 2.0 * np.pi)
@@ -150,14 +150,14 @@ def speed(
     speed_rpm: float = 200.0,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw how fast the box is over the input's turn, next to a plain shaft: Figure 9 of Zhou et al. 2018.
+    """Draw the speed of the box over the input angle, also for a plain shaft: Figure 9 of Zhou et al. 2018.
 
     Args:
-        machines: Shafts or moving boxes, a line each.
-        turns: How many turns of the input are drawn.
-        start: Input angle at which they begin, rad.
-        speed_rpm: Speed of the input, turns a minute.
-        ax: Where to draw; new axes if left out.
+        machines: Shafts or moving boxes, one curve each.
+        turns: Number of turns of the input to draw.
+        start: Input angle at which the curves begin, rad.
+        speed_rpm: Speed of the input, r/min.
+        ax: Axes to draw into; default: new axes.
     """
     ax, angles = _over_input(machines, turns, start, ax)
     omega = speed_rpm * np.pi / 30.0
@@ -194,8 +194,8 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     """Draw a contact analysis: transmission error, teeth in contact, backlash, clearance.
 
     Args:
-        of: A pair, which is analysed, or an analysis made before.
-        axes: Four axes to draw into; a new column of four if left out.
+        of: A gear pair, or the result of its contact analysis.
+        axes: Four axes to draw into; default: a new column of four.
     """
     analysis = of if isinstance(of, Contact) else of.contact()
     if axes is None:
@@ -205,7 +205,7 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
         _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
     error, count, backlash, clearance = np.ravel(axes)
     degrees = np.degrees(analysis.input)
-    error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving on")
+    error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving forward")
     error.plot(degrees, analysis.reverse_transmission_error, color=_DRIVEN, label="driving back")
     error.set_ylabel("transmission\nerror, rad")
     error.legend(loc="best")
@@ -228,11 +228,11 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
 
 
 def goals(of: Mechanism | Sequence[Goal], ax: Axes | None = None) -> Axes:
-    """Draw how far each goal is reached, a bar each, with its figure and the range it is wanted in.
+    """Draw the progress of each goal as a bar, with its figure and its required range.
 
     Args:
         of: A mechanism, or its goals.
-        ax: Where to; new axes if left out.
+        ax: Axes to draw into; default: new axes.
     """
     found = of.goals() if isinstance(of, Mechanism) else tuple(of)
     ax = ax or _axes((9.0, 0.45 * len(found) + 1.0))
@@ -252,15 +252,15 @@ def goals(of: Mechanism | Sequence[Goal], ax: Axes | None = None) -> Axes:
 def response(
     of: Mechanism, parameter: str, values: Sequence[float] | NDArray[Any], axes: NDArray[Any] | None = None
 ) -> NDArray[Any]:
-    """Draw how the goals answer one number of the design, a small picture each: Figure 5 of Yin et al. 2021.
+    """Draw the response of each goal to one number of the design, one small plot per goal: Figure 5 of Yin et al. 2021.
 
-    The range in which a figure is wanted is shaded.
+    The required range of a figure is shaded.
 
     Args:
-        of: The mechanism; all its other numbers stay.
-        parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
-        values: In the file's unit: mm, degrees.
-        axes: Axes to draw into, one a goal that has a figure; a new grid of four columns if left out.
+        of: The mechanism; all its other numbers do not change.
+        parameter: Key in the design file, such as "arm.tip_distance", or name of a parameter, such as "r1".
+        values: Values of the parameter in the unit of the design file: mm, degrees.
+        axes: Axes to draw into, one per goal that has a figure; default: a new grid of four columns.
     """
     found = [goal for goal in of.goals() if goal.value is not None]
     answers = of.response(parameter, values)
@@ -305,13 +305,13 @@ def _range(goal: Goal) -> str:
 
 
 def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:
-    """Draw the motion of a feeder's tip over one cycle: its path, its place and its speed by time.
+    """Draw the motion of a feeder's tip over one cycle: its path, and its position and speed over time.
 
     The curves of Figure 7 of Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
 
     Args:
-        of: What to draw.
-        axes: Three axes to draw into; a new row of three if left out.
+        of: Feeder to draw.
+        axes: Three axes to draw into; default: a new row of three.
     """
     if axes is None:
         with _matplotlib():
@@ -337,12 +337,12 @@ def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:
 
 
 def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
-    """Draw all places of the effector's pivot that give a swing with a six-bar's lengths, and its own one.
+    """Draw all positions of the effector's pivot that give a swing with the lengths of a six-bar, and its actual pivot.
 
     Args:
-        of: Whose lengths.
-        swing: The swing, rad.
-        ax: Where to; new axes if left out.
+        of: Six-bar with the lengths.
+        swing: Required swing, rad.
+        ax: Axes to draw into; default: new axes.
     """
     ax = ax or _axes((6.0, 6.0))
     phi = np.linspace(0.0, 2.0 * np.pi, 721)
@@ -357,11 +357,11 @@ def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
 
 
 def history(*searches: Optimised[Mechanism] | str | PathLike[str], ax: Axes | None = None) -> Axes:
-    """Draw how searches went: what the best so far misses its goals by, and, from where it misses none, its objective.
+    """Draw the progress of searches: total miss of the goals of the best point, and, once it is zero, its objective.
 
     Args:
-        searches: What `optimise` gave, or the files `....search.json` that `centrode optimise` stores, a color each.
-        ax: Where to; new axes if left out.
+        searches: Results of `optimise`, or files `....search.json` stored by `centrode optimise`; one color each.
+        ax: Axes to draw into; default: new axes.
     """
     ax = ax or _axes((8.0, 4.5))
     for number, search in enumerate(searches):
@@ -442,7 +442,7 @@ class _Scene:
 
 
 def _locator(step: float) -> Any:
-    """Ticks at whole multiples of a step."""
+    """Ticks at multiples of a step."""
     from matplotlib.ticker import MultipleLocator
 
     return MultipleLocator(step)
@@ -458,7 +458,7 @@ def _axes(size: tuple[float, float]) -> Axes:
 
 @contextmanager
 def _matplotlib() -> Iterator[None]:
-    """Imports of matplotlib; where it is missing, the error says how to have it."""
+    """Imports of matplotlib; if it is missing, the error states how to install it."""
     try:
         yield
     except ModuleNotFoundError as missing:

@@ -3,19 +3,19 @@ use centrode_gear::design as spec;
 use crate::table::table;
 
 table! {
-    /// The body of a gear: what is not teeth.
+    /// The body of a gear: face width, bore, keyway and material.
     ///
     /// Args:
     ///     width: Face width, mm.
-    ///     bore: Diameter of the bore, mm; 0 for none.
+    ///     bore: Diameter of the bore, mm; 0: no bore.
     ///     keyway: Keyway in the bore.
-    ///     density: kg/m^3.
-    ///     material: For the drawing.
+    ///     density: Density, kg/m^3.
+    ///     material: Material, for the drawing.
     ///     bore_fit: Tolerance class of the bore, ISO 286, for the drawing.
     ///     shaft_fit: Tolerance class of the shaft in the bore, ISO 286, for the drawing.
     ///     keyway_fit: Tolerance class of the keyway's width, ISO 286, for the drawing.
-    ///     heat_treatment: For the drawing.
-    ///     shaft_heat_treatment: Of the shaft in the bore, for the drawing.
+    ///     heat_treatment: Heat treatment, for the drawing.
+    ///     shaft_heat_treatment: Heat treatment of the shaft in the bore, for the drawing.
     ///     accuracy: Accuracy class of the teeth, for the drawing.
     ///     keyway_angle: Direction of the keyway from the body's x axis, rad.
     ///
@@ -53,7 +53,7 @@ table! {
 }
 
 table! {
-    /// A keyway in the bore, along the body's x axis; its depth is measured from the bore's circle.
+    /// A keyway in the bore, along the body's x axis. Its depth is measured from the circle of the bore.
     ///
     /// >>> import centrode as ct
     /// >>> ct.Keyway(width=4, depth=1.8)

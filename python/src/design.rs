@@ -109,7 +109,8 @@ pub(crate) fn object<'py>(
     let made = classes.find_map(|class| (class.make)(py, machine));
     let word = machine.design().family().word;
     Ok(made.ok_or_else(|| {
-        let sentence = format!("{word:?} has no class here: use the command line on it");
+        let sentence =
+            format!("there is no Python class for family {word:?}: use the command line");
         Raised::sentence("family", sentence)
     })??)
 }
@@ -133,7 +134,7 @@ fn not_of_class(class: &Bound<'_, PyType>) -> PyResult<Raised> {
             return Ok(Raised::sentence("family", sentence));
         }
     }
-    let sentence = format!("no family is that of {}", class.name()?);
+    let sentence = format!("{} is not the class of a family", class.name()?);
     Ok(Raised::sentence("family", sentence))
 }
 
@@ -155,7 +156,7 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, P
     load.call1((path,))
 }
 
-/// A commented design file to start from, itself a good design.
+/// A commented design file to start from, which is a valid design.
 ///
 /// >>> import centrode as ct
 /// >>> ct.template("gear-pair").splitlines()[0]
@@ -166,7 +167,7 @@ pub(crate) fn template(family: &str) -> Answer<&'static str> {
     Ok(named(family)?.design.template)
 }
 
-/// The JSON schema of the design files of a family, or of all, as text.
+/// The JSON schema of the design files of a family, or of all families, as text.
 #[pyfunction]
 #[pyo3(signature = (family=None))]
 pub(crate) fn _schema(family: Option<&str>) -> Answer<String> {

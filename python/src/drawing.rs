@@ -3,23 +3,24 @@ use centrode_spec as spec;
 use crate::table::table;
 
 table! {
-    /// Words of the title block of drawing sheets, and their layout.
+    /// Entries of the title block of drawing sheets, and their layout.
     ///
-    /// Keywords omitted stay empty on the sheet.
+    /// Entries without a value stay empty on the sheet.
     ///
     /// Args:
-    ///     number: Drawing number; the part's name is added to it.
+    ///     number: Drawing number; the name of the part is added to it.
     ///     revision: Revision.
-    ///     date: Date of issue, as it is to be printed.
+    ///     date: Date of issue, printed as written.
     ///     owner: Legal owner.
-    ///     drawn_by: Who has drawn it.
-    ///     approved_by: Who has approved it.
-    ///     sheet: "A4" to "A0"; the smallest that takes the part by default.
+    ///     drawn_by: Name of the person who made the drawing.
+    ///     approved_by: Name of the person who approved the drawing.
+    ///     sheet: "A4" to "A0"; default: the smallest on which the part fits.
     ///     projection: "first-angle" or "third-angle".
     ///     general_tolerance: General tolerances.
     ///     edges: State of the edges.
-    ///     surface: Texture of the surfaces without a texture of their own, ISO 21920.
-    ///     fitted_surface: Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
+    ///     surface: Surface texture (ISO 21920) of all surfaces without their own symbol.
+    ///     fitted_surface: Surface texture (ISO 21920) of surfaces with a tolerance class up to grade 8, and of flanks
+    ///         and profiles.
     ///
     /// >>> import centrode as ct
     /// >>> ct.DrawingSpec(number="7-204", sheet="A3").projection
@@ -35,11 +36,11 @@ table! {
         date: String,
         /// Legal owner.
         owner: String,
-        /// Who has drawn it.
+        /// Name of the person who made the drawing.
         drawn_by: String,
-        /// Who has approved it.
+        /// Name of the person who approved the drawing.
         approved_by: String,
-        /// Size of the sheets; None for the smallest that takes the part.
+        /// Size of the sheets; None for the smallest on which the part fits.
         sheet: Option<spec::SheetSize>,
         /// "first-angle" or "third-angle".
         projection: spec::Projection,
@@ -47,7 +48,7 @@ table! {
         general_tolerance: String,
         /// State of the edges.
         edges: String,
-        /// Texture of the surfaces without a texture of their own.
+        /// Surface texture of all surfaces without their own symbol.
         surface: String,
         /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
         fitted_surface: String,

@@ -25,10 +25,10 @@ fn forces(
     Ok(forces.collect::<Result<_, _>>()?)
 }
 
-/// A willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an intermittent gear.
+/// A feeder of willow cuttings: a picking six-bar that rests while it is filled, driven by an intermittent gear.
 ///
-/// Made by `from_toml` or `load`; `template("feeder")` is a design to start from. The input `phi` is the angle the
-/// intermittent gear has turned since the effector left its place under the store, rad; a cycle is one turn.
+/// Made by `from_toml` or `load`; `template("feeder")` is a design to start from. The input `phi` is the angle by which
+/// the intermittent gear has turned since the effector left its position under the store, rad. A cycle is one turn.
 ///
 /// >>> import centrode as ct
 /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
@@ -64,22 +64,23 @@ impl Feeder {
         SixBar(*self.0.six_bar())
     }
 
-    /// The crank's angle at an input, rad.
+    /// Angle of the crank at an input, rad.
     fn crank_angle(&self, phi: Values) -> Course {
         self.each(phi, |feeder, phi| feeder.crank(phi).position)
     }
 
-    /// The effector's angle at an input, rad, without jumps.
+    /// Angle of the effector at an input, rad, without jumps.
     fn effector_angle(&self, phi: Values) -> Course {
         self.each(phi, |feeder, phi| feeder.effector(phi).position)
     }
 
-    /// The effector's angle and its first three derivatives by the input: an array of the shape of `phi` and then (4,).
+    /// Angle of the effector and its first three derivatives with respect to the input: an array of the shape of `phi`
+    /// and then (4,).
     fn effector_motion(&self, phi: Values) -> Course {
         self.rows(phi, |feeder, phi| row(&feeder.effector(phi)))
     }
 
-    /// The effector's tip E at an input, mm: an array of the shape of `phi` and then (2,).
+    /// Tip E of the effector at an input, mm: an array of the shape of `phi` and then (2,).
     fn tip(&self, phi: Values) -> Course {
         self.rows(phi, |feeder, phi| feeder.tip(phi).coords.into())
     }
@@ -89,16 +90,16 @@ impl Feeder {
         self.each(phi, |feeder, phi| feeder.tip_speed(phi))
     }
 
-    /// Torque the crank needs at an input, N mm, counter-clockwise: the links weigh what their plates do, the y axis points
-    /// up, and nothing rubs.
+    /// Torque required at the crank at an input, N mm, counter-clockwise positive. The links have the mass of their
+    /// plates, the y axis points up, and there is no friction.
     ///
     /// Args:
     ///     phi: Inputs, rad.
-    ///     moving: Whether the links' inertia at the design's speed is counted, or each is held still where it is.
-    ///     carried: Mass at the tip of the effector, kg; left out, the design's.
+    ///     moving: Whether the inertia of the links at the design's speed is included; otherwise the links are at rest.
+    ///     carried: Mass at the tip of the effector, kg; default: that of the design.
     ///
     /// Raises:
-    ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
+    ///     MechanismError: A link cannot be cut from plate, or `carried` is not a valid mass.
     ///
     /// >>> import centrode as ct
     /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
@@ -114,11 +115,11 @@ impl Feeder {
     }
 
     /// Forces in the joints at an input, N, with the arguments of `crank_torque`: an array of the shape of `phi` and then
-    /// (7, 2). Those on the crank at A, on the coupler at B, on the rocker at D and, from the coupler, at C, on the slider
-    /// from the coupler at C, on the effector at F, and on the slider from the slot.
+    /// (7, 2). In order: on the crank at A, on the coupler at B, on the rocker at D, on the rocker from the coupler at C,
+    /// on the slider from the coupler at C, on the effector at F, and on the slider from the slot.
     ///
     /// Raises:
-    ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
+    ///     MechanismError: A link cannot be cut from plate, or `carried` is not a valid mass.
     #[pyo3(signature = (phi, *, moving=true, carried=None))]
     fn joint_forces(&self, phi: Values, moving: bool, carried: Option<f64>) -> Course {
         let feeder = Arc::clone(&self.0);
@@ -160,14 +161,15 @@ impl Feeder {
         self.0.speed()
     }
 
-    /// Cuttings fed in a minute.
+    /// Cuttings fed per minute.
     #[getter]
     fn feed_rate(&self) -> f64 {
         self.0.feed_rate()
     }
 
-    /// This feeder with its bounds widened by as little as lets all its goals be reached, its lengths there, and its
-    /// pivot in the middle of the places that give its swing; and the share by which they were widened.
+    /// This feeder with the minimum widening of its bounds with which all goals can be reached, and the share by which
+    /// the bounds were widened. The lengths are those of the widened bounds, and the pivot is in the middle of the
+    /// positions that give the swing.
     ///
     /// Raises:
     ///     MechanismError: The bounds need no widening, or no widening helps.

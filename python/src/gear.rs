@@ -19,7 +19,7 @@ use pyo3::types::{PyDict, PyTuple};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
+/// One gear of a pair, in its own frame. Its axes are parallel to those of the machine at phi = 0.
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Gear {
@@ -117,7 +117,7 @@ impl Gear {
         self.inner().pitch_length()
     }
 
-    /// Area inside the outline, mm^2, without the bore taken out.
+    /// Area inside the outline, mm^2; the bore is not subtracted.
     #[getter]
     fn area(&self) -> f64 {
         self.inner().outline().area()
@@ -141,7 +141,7 @@ impl Gear {
         record::teeth(py, self.inner().teeth())
     }
 
-    /// A measuring pin laid into every space; the diameter (mm) is the design's, or chosen, by default.
+    /// Measurement with a pin in every space. Default diameter (mm): that of the design, otherwise chosen to fit.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=24))
@@ -158,7 +158,7 @@ impl Gear {
 
     /// Base tangent length of a circular gear: number of teeth measured over, and the length, mm.
     ///
-    /// Raises `MechanismError` with the reason if the gear cannot be measured so.
+    /// Raises `MechanismError` with the reason if this length cannot be measured.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=3, tooth_count=24), driver_shift=0.4)
@@ -170,8 +170,8 @@ impl Gear {
         Ok((found.teeth, found.length))
     }
 
-    /// Pins in teeth of the maximum and of the minimum thickness that `thickness_deviations` of the pair, or DIN 3967 for its
-    /// accuracy class, allow. None where neither has any.
+    /// Pin measurements for the maximum and the minimum allowed tooth thickness. The limits are `thickness_deviations` of
+    /// the pair or, by default, those of DIN 3967 for the accuracy class. None if neither gives limits.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.circle(module=2, tooth_count=24)
@@ -191,8 +191,7 @@ impl Gear {
 
     /// The toothed contour, (N, 2), mm: corners of a closed polygon, counter-clockwise.
     ///
-    /// The first point is not repeated at the end. The polygon is nowhere farther than `tolerance` (mm) from
-    /// the exact contour.
+    /// The first point is not repeated at the end. The distance from the exact contour is at most `tolerance` (mm).
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -221,11 +220,11 @@ impl Gear {
         Ok(bore.map(|bore| Rows::new(&bore.flatten(tolerance))))
     }
 
-    /// The points of `outline` with what is known of each, in a dictionary of arrays.
+    /// The points of `outline` with their properties, as a dictionary of arrays.
     ///
-    /// "points" and outward unit "normals" (N, 2); "curvature" (N,), 1/mm, positive where the gear is convex;
-    /// "role" (N,): "tip", "flank", "fillet" or "root"; "tooth" (N,): the tooth it belongs to, a space belonging
-    /// to the tooth before it. At a corner all are those of the part that begins there.
+    /// "points" and outward unit "normals" (N, 2); "curvature" (N,), 1/mm, positive where the gear is convex; "role"
+    /// (N,): "tip", "flank", "fillet" or "root"; "tooth" (N,): the tooth to which the point belongs; a space belongs to
+    /// the tooth before it. At a corner, the values are those of the part that begins there.
     ///
     /// >>> import centrode as ct
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
@@ -258,7 +257,7 @@ impl Gear {
 
     /// The gear as a closed triangle mesh, from z = 0 to its width: vertices (V, 3), mm, and faces (F, 3).
     ///
-    /// Faces list their vertices counter-clockwise seen from outside. `width` replaces the body's.
+    /// Faces list their vertices counter-clockwise seen from outside. `width` (mm) replaces the width of the body.
     ///
     /// >>> import centrode as ct
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
@@ -275,9 +274,9 @@ impl Gear {
         Ok(mesh(wait(py, move || solid.mesh(tolerance))??))
     }
 
-    /// The gear with its bore, from z = 0 to its width, by its exact edges: for CAD kernels.
+    /// Solid of the gear with its bore, from z = 0 to its width, with exact edges, for CAD kernels.
     ///
-    /// Sides shorter than `tolerance` (mm) are closed up: a kernel takes them for points.
+    /// Sides shorter than `tolerance` (mm) are removed, because a kernel treats them as points.
     ///
     /// >>> import centrode as ct
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
@@ -291,9 +290,9 @@ impl Gear {
         Ok(Sides::new(self.member.name(), solid, shortest)?.record(py)?)
     }
 
-    /// Writes the gear as an exact STEP solid (AP214, mm), named after it; gives the path.
+    /// Writes the gear as an exact STEP solid (AP214, mm) with its name; returns the path.
     ///
-    /// Written whole or not at all, as `GearPair.export` does; `GearPair.files` gives the bytes instead.
+    /// The file is written completely or not at all, as by `GearPair.export`. `GearPair.files` returns the bytes instead.
     ///
     /// >>> import centrode as ct, pathlib, tempfile
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
@@ -305,15 +304,16 @@ impl Gear {
         self.write(py, path, Format::Step, self.pair.accuracy())
     }
 
-    /// Writes the gear as a binary STL mesh, mm; gives the path.
+    /// Writes the gear as a binary STL mesh, mm; returns the path.
     ///
-    /// Written whole or not at all. The mesh is nowhere farther than `tolerance` (mm) from the exact solid.
+    /// The file is written completely or not at all. The distance of the mesh from the exact solid is at most `tolerance`
+    /// (mm).
     #[pyo3(signature = (path, tolerance=1e-3))]
     fn stl(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> Answer<PathBuf> {
         self.write(py, path, Format::Stl, tolerance)
     }
 
-    /// Writes the gear as a 3MF package, the mesh of `stl` with its unit and name; gives the path.
+    /// Writes the gear as a 3MF package: the mesh of `stl` with its unit and name; returns the path.
     #[pyo3(signature = (path, tolerance=1e-3))]
     fn threemf(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> Answer<PathBuf> {
         self.write(py, path, Format::ThreeMf, tolerance)
@@ -328,7 +328,7 @@ impl Gear {
     /// The drawing sheets of the gear: views, dimensions, gear data, measures over pins, profile.
     ///
     /// Args:
-    ///     size: "A4" to "A0"; default: the design's, or the smallest that takes the gear.
+    ///     size: "A4" to "A0"; default: the design's, or the smallest on which the gear fits.
     ///     projection: "first-angle" or "third-angle"; default: the design's.
     ///     tolerance: Maximum distance of a drawn line from the exact one on the part, mm.
     ///

@@ -39,43 +39,44 @@ const FARTHEST: f64 = 1e6;
 /// driver has turned by -phi and the driven gear by +driven_angle(phi).
 ///
 /// Args:
-///     pitch: Pitch curve of the driver; that of the driven gear follows.
+///     pitch: Pitch curve of the driver; the pitch curve of the driven gear follows from it.
 ///     mean_ratio: Turns of driver : turns of driven gear, in lowest terms.
-///     tooth_count: Teeth of the driver, for a pitch curve with a size of its own: the module follows.
-///     center_distance: mm; it follows from pitch curve, mean ratio and shifts, and is checked if given. Circular gears with one
-///         shift given get the other shift from it.
-///     tool: What cuts both gears; the rack of ISO 53, profile A, by default.
-///     addendum: "full": every tooth has the height of the tool. "fitted": each has the largest height that works.
-///     fit: Parameters to optimise for the contact ratio, instead of those given here: "thickness_split",
-///         "pressure_angle" of the tool, "phase"; "addendum" is fitted teeth; any of the others implies it.
-///     phase: Where the teeth sit on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that
-///         both gears come out the same part, "auto", or the pitches from the polar angle zero to a tooth.
+///     tooth_count: Tooth count of the driver, for a pitch curve of given size; the module follows from it.
+///     center_distance: Centre distance, mm. It follows from pitch curve, mean ratio and shifts, and is checked if given.
+///         For circular gears with one given shift, the other shift follows from it.
+///     tool: Tool that cuts both gears; default: the rack of ISO 53, profile A.
+///     addendum: "full": every tooth has the height given by the tool. "fitted": every tooth has the largest height that
+///         works.
+///     fit: Parameters to optimise for the contact ratio; their values given here are not used: "thickness_split",
+///         "pressure_angle" of the tool, "phase". "addendum" means fitted teeth; each of the others implies it.
+///     phase: Position of the teeth on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that both
+///         gears are equal parts, "auto", or the number of pitches from the polar angle zero to a tooth.
 ///     backlash: Backlash of the pair along the normal, mm.
 ///     backlash_angle: Maximum backlash of the driven gear, rad, instead of `backlash`.
-///     thickness_split: The driver's share of the pitch.
-///     minimum_tip_width_coefficient: Minimum width of a tooth at its tip, in modules, before it is reported.
-///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness from the design, mm, each within
-///         half a module: limits of the measures over pins. Default: zero and minus the tolerance of DIN 3967 for the
-///         accuracy class.
-///     pin_diameter: Diameter of the measuring pins, mm; chosen by default.
+///     thickness_split: Tooth thickness of the driver as a share of the pitch.
+///     minimum_tip_width_coefficient: Tip width in modules below which a tooth is reported.
+///     thickness_deviations: Upper and lower deviation of the tooth thickness from the design, mm, each within half a
+///         module. They give the limits of the measurements over pins. Default: zero and minus the tolerance of DIN 3967
+///         for the accuracy class.
+///     pin_diameter: Diameter of the measuring pins, mm; default: chosen to fit.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.
-///     driver_shift: Profile shift coefficient of the driver, in modules; the opposite of that of the driven gear if not given.
+///     driver_shift: Profile shift coefficient of the driver, in modules; default: minus that of the driven gear.
 ///     driven_shift: Profile shift coefficient of the driven gear. Only circular gears may have shifts whose sum is not zero.
-///     driver_addendum: Height of the driver's teeth above the pitch curve, in modules; that of its tool if not given.
-///     driven_addendum: The same of the driven gear.
-///     driver_dedendum: Depth of the driver's spaces below the pitch curve, in modules; that of its tool if not given.
-///     driven_dedendum: The same of the driven gear.
-///     driver_tool: What cuts the driver, of the same pressure angle; `tool` if not given.
-///     driven_tool: What cuts the driven gear.
-///     tip_shortening: Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool, "none", or a
+///     driver_addendum: Height of the driver's teeth above the pitch curve, in modules; default: from its tool.
+///     driven_addendum: Height of the driven gear's teeth above the pitch curve, in modules; default: from its tool.
+///     driver_dedendum: Depth of the driver's spaces below the pitch curve, in modules; default: from its tool.
+///     driven_dedendum: Depth of the driven gear's spaces below the pitch curve, in modules; default: from its tool.
+///     driver_tool: Tool of the driver, with the same pressure angle; default: `tool`.
+///     driven_tool: Tool of the driven gear, with the same pressure angle; default: `tool`.
+///     tip_shortening: Change of every addendum: "keep-clearance" keeps the clearance given by the tool, "none", or a
 ///         coefficient in modules, negative for shorter teeth.
-///     drawing: What the drawing sheets say.
+///     drawing: Title block and layout of the drawing sheets.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
 /// Raises:
-///     DesignError: A value breaks a rule; GearPairError and PitchError where curve or teeth cannot exist.
+///     DesignError: A value breaks a rule; GearPairError or PitchError if teeth or pitch curve cannot exist.
 ///
 /// >>> import centrode as ct
 /// >>> pitch = ct.pitch.ellipse(eccentricity=0.2679491924311227, module=2.25, tooth_count=23)
@@ -138,7 +139,7 @@ impl GearPair {
         Pitch::resolve(self.0.design().pitch.clone())
     }
 
-    /// Tool that cuts both gears, unless a gear has its own.
+    /// Tool that cuts both gears, unless a gear has its own tool.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         tool::object(py, &self.0.settled_design().tool)
@@ -150,20 +151,20 @@ impl GearPair {
         self.0.teeth().addendum.word()
     }
 
-    /// Numbers chosen so that the teeth work deepest, by their words.
+    /// Names of the parameters that were optimised for the contact ratio.
     #[getter]
     fn fit(&self) -> Vec<&'static str> {
         let fit = self.0.design().teeth.fit.iter();
         fit.map(|fit| fit.word()).collect()
     }
 
-    /// The driver's share of the pitch.
+    /// Tooth thickness of the driver as a share of the pitch.
     #[getter]
     fn thickness_split(&self) -> f64 {
         self.0.teeth().thickness_split
     }
 
-    /// The pair with what was chosen written down: it has the same gears, and its design leaves nothing free.
+    /// Pair with the optimised parameters written as given values; its gears are the same, and its `fit` is empty.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.ellipse(eccentricity=0.45, module=2, tooth_count=17)
@@ -229,25 +230,25 @@ impl GearPair {
         self.0.congruent()
     }
 
-    /// Driver angle after which both gears are as they were, rad.
+    /// Driver angle after which the motion of the pair repeats, rad.
     #[getter]
     fn cycle(&self) -> f64 {
         self.0.cycle()
     }
 
-    /// The gear that is turned, at the origin.
+    /// The driving gear, at the origin.
     #[getter]
     fn driver(slf: &Bound<'_, Self>) -> PyResult<Gear> {
         Self::gear(slf, Member::Driver)
     }
 
-    /// The gear that is driven, at (center_distance, 0).
+    /// The driven gear, at (center_distance, 0).
     #[getter]
     fn driven(slf: &Bound<'_, Self>) -> PyResult<Gear> {
         Self::gear(slf, Member::Driven)
     }
 
-    /// Driven angle at a driver angle, rad; of an array, an array of the same shape.
+    /// Driven angle at a driver angle, rad; for an array, an array of the same shape.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20), mean_ratio=(2, 1))
@@ -260,7 +261,7 @@ impl GearPair {
         self.each(phi, |pair, phi| pair.driven_angle(phi))
     }
 
-    /// Driven turn per driver turn at a driver angle, rad; of an array, an array of the same shape.
+    /// Ratio of driven speed to driver speed at a driver angle (rad); for an array, an array of the same shape.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.ellipse(eccentricity=0.2679491924311227, module=2.25, tooth_count=23)
@@ -271,34 +272,36 @@ impl GearPair {
         self.each(phi, |pair, phi| pair.ratio(phi))
     }
 
-    /// Change of the ratio per radian of driver angle; of an array, an array of the same shape.
+    /// Change of the ratio per radian of driver angle; for an array, an array of the same shape.
     fn ratio_slope(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| pair.ratio_slope(phi))
     }
 
-    /// Curvature (1/mm) of the driver's pitch curve where it touches at a driver angle; positive where convex.
+    /// Curvature (1/mm) of the driver's pitch curve at the pitch point, at a driver angle; positive where convex.
     fn driver_curvature(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| pair.pitch_point(phi).driver_curvature)
     }
 
-    /// Curvature (1/mm) of the driven gear's pitch curve where it touches at a driver angle; positive where convex.
+    /// Curvature (1/mm) of the driven gear's pitch curve at the pitch point, at a driver angle; positive where convex.
     fn driven_curvature(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| pair.pitch_point(phi).driven_curvature)
     }
 
-    /// Angle (rad) between the common normal and the driven gear's motion, the driver pushing it on: |alpha - mu|, tan mu = r'/r.
+    /// Pressure angle (rad) when the driver pushes the driven gear forward: |alpha - mu|, tan mu = r'/r.
+    ///
+    /// It is the angle between the common normal and the motion of the driven gear.
     fn pressure_angle(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| pair.pitch_point(phi).pressure_angle)
     }
 
-    /// Pressure angle with the driver pushing it back: |alpha + mu|.
+    /// Pressure angle (rad) when the driver pushes the driven gear back: |alpha + mu|.
     fn reverse_pressure_angle(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| {
             pair.pitch_point(phi).reverse_pressure_angle
         })
     }
 
-    /// The driven pitch curve, with its teeth counted: the driver of a next pair.
+    /// The driven pitch curve with its tooth count, to be the driver of another pair.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.polar("1 + 0.1*cos(phi)", module=2, tooth_count=20), mean_ratio=(2, 1))
@@ -315,11 +318,11 @@ impl GearPair {
         }))
     }
 
-    /// Contact analysis of the finished outlines along one whole cycle, or at given inputs.
+    /// Contact analysis of the finished outlines over one whole cycle, or at given inputs.
     ///
     /// Args:
-    ///     per_pitch: Inputs a pitch, spaced evenly along the pitch curve and never in step with the teeth.
-    ///     inputs: Driver angles, rad, instead of these; at most 1e6 in either direction.
+    ///     per_pitch: Inputs per pitch, evenly spaced along the pitch curve, at different phases of successive teeth.
+    ///     inputs: Driver angles to use instead, rad; at most 1e6 in either direction.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
@@ -344,9 +347,11 @@ impl GearPair {
         Ok(record::contact(py, contact?)?)
     }
 
-    /// From how many teeth on full teeth, fitted ones, and fitted ones of chosen thickness, pressure angle and phase carry the
-    /// motion by their flanks alone, each with the pair so changed. A kind that does not up to 600 teeth is omitted; a choice is
-    /// searched only where as many fitted teeth as there are do not. Takes seconds.
+    /// Changed pairs whose flanks alone transmit the motion, each with its minimum tooth count: with full teeth, with
+    /// fitted teeth, and with fitted teeth of optimised thickness, pressure angle and phase.
+    ///
+    /// A kind that needs more than 600 teeth is omitted. The parameters are optimised only if the present number of
+    /// fitted teeth is too small. The call takes seconds.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.from_ratio("1 + 0.4*cos(phi)", module=2, tooth_count=8)
@@ -363,7 +368,7 @@ impl GearPair {
         Ok(PyTuple::new(py, made.collect::<Answer<Vec<_>>>()?)?)
     }
 
-    /// The drawing sheets of both gears assembled: centre distance, data, motion; as `Gear.sheet`.
+    /// The drawing sheets of the assembled pair: centre distance, data, motion; arguments as for `Gear.sheet`.
     #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
     fn sheet<'py>(
         &self,

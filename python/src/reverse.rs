@@ -36,10 +36,10 @@ pub(crate) use given::{reverse, reverse_poses};
 /// Bytes read of a path's file: one more than it may have.
 pub(crate) const LARGEST: usize = RequiredPath::LARGEST + 1;
 
-/// A machine made from the path required of its tip, by `reverse`, or from key poses, by `reverse_poses`.
+/// A machine designed from the path of its tip, by `reverse`, or from key poses, by `reverse_poses`.
 ///
-/// A carrier turns about `axis` and supports an arm; a train of gears whose sun is fixed turns the arm once against it while
-/// it turns once.
+/// A carrier turns about `axis` and supports an arm. A gear train with a fixed sun turns the arm by one turn relative to
+/// the carrier for each turn of the carrier.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Reversed {
@@ -99,7 +99,7 @@ impl Reversed {
         (self.chain.axis().x, self.chain.axis().y)
     }
 
-    /// Length of the carrier, from its axis to the arm's, mm.
+    /// Length of the carrier, from its axis to the axis of the arm, mm.
     #[getter]
     fn carrier(&self) -> f64 {
         self.chain.carrier()
@@ -111,7 +111,7 @@ impl Reversed {
         self.chain.arm()
     }
 
-    /// Sense in which the carrier turns, "clockwise" or "counter-clockwise".
+    /// Direction in which the carrier turns, "clockwise" or "counter-clockwise".
     #[getter]
     fn direction(&self) -> &'static str {
         self.chain.direction().word()
@@ -124,7 +124,7 @@ impl Reversed {
         (minimum.value, maximum.value)
     }
 
-    /// Minimum radius of curvature of the pitch curves where they are convex, mm, of the gears as they are written.
+    /// Minimum convex radius of curvature of the pitch curves, mm, for the gears as written in the design.
     #[getter]
     fn minimum_radius(&self) -> f64 {
         self.made.minimum_radius()
@@ -136,34 +136,36 @@ impl Reversed {
         self.chain.shaft_distance()
     }
 
-    /// Method by which two stages of gears share the motion.
+    /// Method by which the two gear stages share the motion.
     #[getter]
     fn split(&self) -> &'static str {
         self.split.kind().name()
     }
 
-    /// Points of the path that was eased, mm, an array (N, 2), where `band` was given or `open`, with those of the free return: a
-    /// closed spline of degree five runs through them.
+    /// Points of the eased path, mm, an array (N, 2), with those of the free return; a closed spline of degree five
+    /// passes through them. None unless `band` or `open` was given.
     #[getter]
     fn eased(&self) -> Option<Rows<2>> {
         Some(Rows::new(&self.eased_path()?.points))
     }
 
-    /// Module up to which full teeth are surely sound on the eased path, mm, where `band` was given or `open`.
+    /// Module up to which full teeth on the eased path are guaranteed to be sound, mm. None unless `band` or `open` was
+    /// given.
     #[getter]
     fn full_module(&self) -> Option<f64> {
         Some(self.eased_path()?.module)
     }
 
-    /// Further wishes as goals, with how far they are reached.
+    /// The requirements of `wishes` as goals, each with its figure and its progress.
     #[getter]
     fn goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))
     }
 
-    /// Findings on the machine: that the axis found is at the border of its box, `axis-at-border`, and of several
-    /// arms whose plates or gears collide, `plates-collide` and `gears-collide`, as the check of `machine()` reports it, the deepest
-    /// first. Several arms cost the teeth of `machine()`.
+    /// Findings about the machine: `axis-at-border` if the axis found is at the border of its box; for several arms also
+    /// `plates-collide` and `gears-collide` as in the check of `machine()`, the deepest collision first.
+    ///
+    /// For several arms, this computes the teeth of `machine()`, which takes longer.
     #[getter]
     fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let mut found = match &self.given {
@@ -182,13 +184,13 @@ impl Reversed {
         record::findings(py, &found)
     }
 
-    /// Maximum distance of the tip from the path, mm, with the laws of the gears as the design holds them.
+    /// Maximum distance of the tip from the path, mm, with the laws of the gears as written in the design.
     #[getter]
     fn tip_error(&self) -> f64 {
         self.made.tip_error.value
     }
 
-    /// Direction of the clamp less that of the arm, degrees; None where a path was given and no directions along it.
+    /// Angle from the arm to the clamp, degrees; None for a path without directions.
     #[getter]
     fn clamp_deg(&self) -> Option<f64> {
         match &self.given {
@@ -197,8 +199,8 @@ impl Reversed {
         }
     }
 
-    /// How far the path is from each key pose, mm, and the clamp there from its direction, degrees: an array (N, 2); None where
-    /// a path was given.
+    /// Errors at the key poses: distance of the path, mm, and direction error of the clamp, degrees; an array (N, 2).
+    /// None for a path.
     #[getter]
     fn misses(&self) -> Option<Rows<2>> {
         match &self.given {
@@ -210,14 +212,14 @@ impl Reversed {
         }
     }
 
-    /// Turn of the planet against the carrier by the carrier's direction, rad, zero where the bars are stretched: of an array,
-    /// an array of the same shape.
+    /// Total law: angle of the planet relative to the carrier as a function of the carrier's direction, rad; zero where
+    /// the bars are stretched. For an array, an array of the same shape.
     fn law(&self, direction: Values) -> Course {
         let law = Arc::clone(&self.law);
         Course::each(direction, move |psi| law.at(psi).position)
     }
 
-    /// Figures of every way in which two stages of gears may share the motion here, or why there are none.
+    /// Figures for each method by which the two gear stages can share this motion, or the reason why it is not possible.
     ///
     /// >>> import centrode as ct
     /// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
@@ -244,7 +246,7 @@ impl Reversed {
         record::tuple(py, found)
     }
 
-    /// Possible axes of the carrier on and about the path.
+    /// Map of the possible axes of the carrier on and around the path.
     ///
     /// >>> import centrode as ct
     /// >>> import math
@@ -274,10 +276,10 @@ impl Reversed {
         axis_map(py, map, self.bend_deg.to_radians())
     }
 
-    /// The machine with the largest teeth whose flanks carry the motion alone.
+    /// The machine with the largest teeth whose flanks alone transmit the motion.
     ///
     /// Raises:
-    ///     MechanismError: There are no such teeth, or its parts cannot be made.
+    ///     MechanismError: There are no such teeth, or a part cannot be made.
     fn machine(&self, py: Python<'_>) -> Answer<Py<Machine>> {
         let design = self.made.design.clone();
         let composed = wait(py, move || {
@@ -290,17 +292,20 @@ impl Reversed {
         Machine::object(py, composed)
     }
 
-    /// The three-arm transplanting mechanism that takes the key poses, picks in the first and plants in the last.
+    /// The three-arm transplanting mechanism that passes through the key poses, picks in the first and plants in the
+    /// last.
     ///
-    /// Bend and law of its gears are searched so that it reaches its goals with sound full teeth; of `split` and `bend_deg` nothing
-    /// is taken. Where none is found that reaches all, the nearest is given: its goals show the misses.
+    /// The bend and the law of its gears are searched so that it reaches its goals with sound full teeth; `split` and
+    /// `bend_deg` are not used. If no mechanism reaches all goals, the closest one is returned, and its goals show the
+    /// misses.
     ///
     /// Raises:
-    ///     MechanismError: A path was given, the clamp points back at the arm's axis, or no law brings the arm through the poses.
+    ///     MechanismError: A path was given, the clamp points back towards the arm's axis, or no law moves the arm
+    ///         through the poses.
     fn three_arm<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyAny>> {
         let Given::Poses { found, .. } = &self.given else {
             let sentence =
-                "a path says nothing of the clamp: a three-arm mechanism is made from key poses";
+                "a path does not define the clamp: use key poses for a three-arm mechanism";
             return Err(Raised::no_mechanism("three_arm", sentence.into()));
         };
         let (poses, arms) = (found.poses.clone(), self.arms);

@@ -39,7 +39,7 @@ pub(crate) fn optimised<'py>(
 ) -> Answer<Bound<'py, PyAny>> {
     let found = search(py, family, machine, strategy, settings, callback)?;
     let Ok(best) = &found.mechanism else {
-        return Err(Raised::no_search("the best point is no mechanism"));
+        return Err(Raised::no_search("the best point found gives no mechanism"));
     };
     Ok(record::optimised(py, object(py, best)?, &found)?)
 }

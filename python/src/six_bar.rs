@@ -11,24 +11,24 @@ use crate::record::{self, Keywords};
 use crate::wait::wait_here;
 use crate::word::Word;
 
-/// A crank-rocker that swings an end effector through a slider: the picking mechanism of 2022.
+/// A crank-rocker that swings an end effector through a slider: the picking mechanism of Ye et al. 2022.
 ///
-/// The crank AB turns about the origin A, the rocker CD about D = (frame, 0). The slider at the joint C of coupler
-/// and rocker runs along the effector, which turns about the fixed pivot F: its angle is the direction from F to C,
-/// without jumps, and its tip E lies at the effector's length from F.
+/// The crank AB turns about the origin A, the rocker CD about D = (frame, 0). The slider at the joint C of coupler and
+/// rocker moves along the effector, which turns about the fixed pivot F. The effector's angle is the direction from F to
+/// C, without jumps. Its tip E is at the effector's length from F.
 ///
 /// Args:
-///     crank: Length AB, mm; the shortest.
+///     crank: Length AB, mm; it must be the shortest length.
 ///     coupler: Length BC, mm.
 ///     rocker: Length CD, mm.
 ///     frame: Length AD, mm.
-///     pivot: The effector's pivot F, mm.
+///     pivot: Position of the effector's pivot F, mm.
 ///     effector_length: Length FE, mm.
 ///     branch: "upper" with C left of the line from B to D, or "lower".
 ///
 /// Raises:
-///     LinkageError: The four-bar is no crank-rocker, or the pivot lies on the slider's path.
-///     DesignError: A value breaks a rule of its own.
+///     LinkageError: The four-bar is not a crank-rocker, or the pivot is on the path of the slider.
+///     DesignError: A value is out of its range.
 ///
 /// >>> import centrode as ct
 /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
@@ -76,7 +76,7 @@ impl SixBar {
         })
     }
 
-    /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
+    /// Angle of the effector at a crank angle, rad; for an array, an array of the same shape.
     fn effector_angle(&self, phi: Values) -> Course {
         let six_bar = self.0;
         Course::by_blocks(phi, &[], move |phi, angles| {
@@ -84,8 +84,8 @@ impl SixBar {
         })
     }
 
-    /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and
-    /// then (4,).
+    /// Angle of the effector and its first three derivatives with respect to the crank angle: an array of the shape of
+    /// `phi` and then (4,).
     ///
     /// >>> import centrode as ct
     /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
@@ -98,7 +98,7 @@ impl SixBar {
         })
     }
 
-    /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
+    /// Tip E of the effector at a crank angle, mm: an array of the shape of `phi` and then (2,).
     fn effector_tip(&self, phi: Values) -> Course {
         let six_bar = self.0;
         Course::by_blocks(phi, &[2], move |phi, tips| {
@@ -106,7 +106,7 @@ impl SixBar {
         })
     }
 
-    /// The angle at C between coupler and rocker, in (0, pi), rad; of an array, an array of the same shape.
+    /// Angle at C between coupler and rocker, in (0, pi), rad; for an array, an array of the same shape.
     fn transmission_angle(&self, phi: Values) -> Course {
         let four_bar = *self.0.four_bar();
         Course::each(phi, move |phi| four_bar.transmission_angle(phi))
@@ -118,7 +118,7 @@ impl SixBar {
         self.0.four_bar().lengths()
     }
 
-    /// The effector's pivot F, mm.
+    /// Position of the effector's pivot F, mm.
     #[getter]
     fn pivot(&self) -> (f64, f64) {
         let pivot = self.0.pivot();
@@ -131,7 +131,7 @@ impl SixBar {
         self.0.effector_length()
     }
 
-    /// Angle between the ends of the effector's motion, rad.
+    /// Swing of the effector: the angle between the ends of its motion, rad.
     ///
     /// >>> import centrode as ct
     /// >>> import math
@@ -149,25 +149,25 @@ impl SixBar {
         self.0.four_bar().minimum_transmission_angle()
     }
 
-    /// Angle between the rocker's ends, rad.
+    /// Swing of the rocker: the angle between the ends of its motion, rad.
     #[getter]
     fn rocker_swing(&self) -> Option<f64> {
         self.0.four_bar().rocker_swing()
     }
 
-    /// Time of the rocker's slower stroke over that of the quicker one.
+    /// Time ratio: time of the rocker's slow stroke divided by that of its quick stroke.
     #[getter]
     fn quick_return(&self) -> Option<f64> {
         self.0.four_bar().quick_return()
     }
 
-    /// Crank angle of the rocker's slower stroke, rad.
+    /// Crank angle of the rocker's slow stroke, rad.
     #[getter]
     fn slow_stroke(&self) -> Option<f64> {
         self.0.four_bar().slow_stroke()
     }
 
-    /// Dead centres, where crank and coupler lie in one line.
+    /// Dead centres, at which crank and coupler are in one line.
     #[getter]
     fn dead_centers<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let dead = self.0.four_bar().dead_centers();
@@ -194,9 +194,11 @@ impl SixBar {
         ])
     }
 
-    /// Positions of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
-    /// an array (N, 2). Half a turn is seen from the chord between the slider's dead centres, and from nowhere else; more
-    /// than half a turn and half the rocker's swing from nowhere.
+    /// Positions of the effector's pivot that give this swing (rad) with these four lengths, in order along a curve: an
+    /// array (N, 2).
+    ///
+    /// For a swing of half a turn these are the points of the chord between the slider's dead centres. No position gives
+    /// more than half a turn plus half the rocker's swing.
     ///
     /// >>> import centrode as ct
     /// >>> import math

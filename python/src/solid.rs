@@ -26,7 +26,7 @@ impl Sides {
         let exact = || Tolerance::new(FINEST).is_ok_and(|finest| contours(&solid, finest).is_ok());
         if found.is_err() && exact() {
             let sentence = format!(
-                "tolerance of {:e} mm closes up all sides of {part}: take a smaller one",
+                "with a tolerance of {:e} mm, {part} has no sides left: use a smaller tolerance",
                 shortest.mm()
             );
             return Err(Raised::sentence("tolerance", sentence));

@@ -9,13 +9,13 @@ use crate::keywords::Field;
 use crate::table::table;
 
 table! {
-    /// A basic rack; the defaults are ISO 53, profile A. Lengths are multiples of the module.
+    /// A basic rack; default: ISO 53, profile A. Lengths are in modules.
     ///
     /// Args:
-    ///     pressure_angle: rad.
+    ///     pressure_angle: Pressure angle, rad.
     ///     addendum_coefficient: Height of the gear's tooth above the pitch curve.
-    ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve; the tool cuts this far.
-    ///     tip_radius_coefficient: Radius of the tool's tip, which leaves the fillet.
+    ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve, to which the tool cuts.
+    ///     tip_radius_coefficient: Radius of the tool's tip, which generates the fillet.
     ///
     /// >>> import math, centrode as ct
     /// >>> ct.Rack().dedendum_coefficient
@@ -37,14 +37,14 @@ table! {
 }
 
 table! {
-    /// A pinion-type cutter with involute teeth. Lengths are multiples of the module.
+    /// A pinion-type cutter with involute teeth. Lengths are in modules.
     ///
     /// Args:
     ///     tooth_count: Teeth of the cutter.
-    ///     pressure_angle: rad.
+    ///     pressure_angle: Pressure angle, rad.
     ///     addendum_coefficient: Height of the gear's tooth above the pitch curve.
-    ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve; the cutter's own addendum.
-    ///     tip_radius_coefficient: Radius of the cutter's tip corner, which leaves the fillet.
+    ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve: the addendum of the cutter.
+    ///     tip_radius_coefficient: Radius of the cutter's tip corner, which generates the fillet.
     ///
     /// >>> import centrode as ct
     /// >>> ct.Shaper(tooth_count=20).tip_radius_coefficient

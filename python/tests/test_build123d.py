@@ -204,11 +204,11 @@ def test_a_cam_and_a_listed_part_are_parts_too():
 def test_what_is_no_part_is_refused(pair):
     with pytest.raises(TypeError, match="must be a gear, a disc cam or a machine, not str"):
         ct.build123d.part("driver")  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="must be a machine, such as a GearPair or what"):
+    with pytest.raises(TypeError, match="must be a machine, such as a GearPair or the result"):
         ct.build123d.assembly(pair.driver)  # type: ignore[arg-type]
     with pytest.raises(ct.DesignError, match="one of driver, driven, not 'sun'"):
         ct.build123d.part(pair, "sun")
-    with pytest.raises(ct.DesignError, match="one of driver, driven, not left out"):
+    with pytest.raises(ct.DesignError, match="one of driver, driven, not omitted"):
         ct.build123d.part(pair)
     feeder = ct.Feeder.from_toml(ct.template("feeder"))
     key = next(part for part in feeder.parts() if "DIN 6885" in str(part))

@@ -54,7 +54,7 @@ def test_what_is_asked_wrongly_is_refused(drive):
     machine = ct.Machine.from_toml(SLIDER)
     with pytest.raises(ct.DesignError, match="centre distance must be"):
         ct.gear_drive(machine, center_distance=-1)
-    with pytest.raises(ct.DesignError, match=r"rod is tied by dyads\.ram"):
+    with pytest.raises(ct.DesignError, match=r"rod belongs to dyads\.ram"):
         ct.gear_drive(machine, "rod", center_distance=130)
     with pytest.raises(ct.MechanismError, match=r"goals\.rest"):
         ct.gear_drive(ct.Machine.from_toml(SLIDER.replace("maximum = 1.5", "maximum = 40")), center_distance=130)

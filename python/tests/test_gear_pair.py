@@ -170,7 +170,7 @@ def test_each_gear_has_heights_and_a_tool_of_its_own(pair):
     assert uneven.driver.radii[0] > plain.driver.radii[0] + 0.15
     assert not uneven.congruent
     assert uneven.check().values["transmission_error_max"] < 1e-9
-    with pytest.raises(ct.DesignError, match="both tools need the same"):
+    with pytest.raises(ct.DesignError, match="both tools must have the same angle"):
         ct.GearPair(pitch, driven_tool=ct.Rack(pressure_angle=0.4))
 
 

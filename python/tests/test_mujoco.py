@@ -113,7 +113,7 @@ def test_a_control_is_handed_to_other_processes():
 
 
 def test_what_is_no_machine_is_refused(pair):
-    with pytest.raises(TypeError, match="must be a machine, such as a GearPair or what"):
+    with pytest.raises(TypeError, match="must be a machine, such as a GearPair or the result"):
         ct.mujoco.load(pair.driver)  # type: ignore[arg-type]
     with pytest.raises(ct.DesignError, match="tolerance"):
         ct.mujoco.load(pair, tolerance=0.0)

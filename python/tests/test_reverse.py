@@ -324,8 +324,8 @@ def test_a_free_return_keeps_the_stroke():
     [
         ({"band": -1}, "band of point 1"),
         ({"band": [1, 2]}, "2 bands for 13 points"),
-        ({"band": 1, "module": 0}, "module is greater than zero"),
-        ({"module": 1}, "by how much with band"),
+        ({"band": 1, "module": 0}, "module must be greater than zero"),
+        ({"module": 1}, "give band"),
     ],
 )
 def test_what_is_no_band_is_refused(keywords, word):

@@ -138,7 +138,7 @@ def test_the_axis_is_zoomed_by_keys(browser, tmp_path):
 
 def test_the_axis_tells_degrees_turns_and_seconds(browser, tmp_path):
     with opened(browser, tmp_path, FEEDER) as (page, copy):
-        rate = re.search(r"([\d.]+) cycles a minute", centrode("check", copy, check=False).stdout)
+        rate = re.search(r"([\d.]+) cycles per minute", centrode("check", copy, check=False).stdout)
         cycle = 60 / float(rate[1])
         assert float(ends(page)[1].rstrip("°")) == pytest.approx(360, abs=2)
         page.locator("#axis").select_option("turns")

@@ -97,10 +97,10 @@ def test_an_axis_has_the_digits_of_its_step(points):
 def test_a_count_is_told_in_whole_numbers_and_drawn_in_steps(browser, tmp_path, design):
     with opened(browser, tmp_path, design, script=WATCH) as (page, _):
         page.wait_for_timeout(300)
-        [(words, lines)] = [(words, lines) for name, words, lines in charts(page) if name == "Contacts at once"]
+        [(words, lines)] = [(words, lines) for name, words, lines in charts(page) if name == "Tooth pairs in contact"]
         assert upright(words)
         assert all("." not in word["words"] for word in words if word["side"] == "right")
-        chart = page.locator("figure", has_text="Contacts at once")
+        chart = page.locator("figure", has_text="Tooth pairs in contact")
         assert chart.locator("output").inner_text().isdigit()
         runs = [(a, b) for line in lines for a, b in pairwise(line)]
         assert len(runs) > 50
@@ -111,7 +111,7 @@ def test_a_line_does_not_keep_to_whole_pixels(browser, tmp_path):
     with opened(browser, tmp_path, POINTS, script=WATCH) as (page, _):
         page.wait_for_timeout(300)
         for name, _, lines in charts(page):
-            if name != "Contacts at once":
+            if name != "Tooth pairs in contact":
                 heights = {y for line in lines for _, y in line}
                 assert any(y % 1 for y in heights) or len(heights) == 1, name
 
@@ -219,7 +219,7 @@ def same_numbers(path, name, own):
 WAY = re.compile(r"([MLHV])(-?[\d.]+)(?: (-?[\d.]+))?")
 
 
-@pytest.mark.parametrize("name", ["Pressure angle", "Contacts at once", "Ratio"])
+@pytest.mark.parametrize("name", ["Pressure angle", "Tooth pairs in contact", "Ratio"])
 def test_the_svg_of_a_chart_has_its_lines_at_their_ticks(points, tmp_path, name):
     page, _ = points
     root = ElementTree.parse(taken(page, tmp_path, name, "SVG")).getroot()
@@ -250,7 +250,7 @@ def test_the_svg_of_a_chart_has_its_lines_at_their_ticks(points, tmp_path, name)
             else:
                 y = float(first)
             drawn.append((read(across, x), read(up, y)))
-        assert {word for word, _, _ in steps} <= (set("MHV") if name == "Contacts at once" else set("ML"))
+        assert {word for word, _, _ in steps} <= (set("MHV") if name == "Tooth pairs in contact" else set("ML"))
         reach = max(column) - min(column)
         assert [x for x, _ in drawn] == pytest.approx(inputs, abs=0.05)
         assert [y for _, y in drawn] == pytest.approx(column, abs=5e-3 * reach)

@@ -147,7 +147,7 @@ def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_c
     (contacts,) = snapshot["picture"]["contacts"]
     cycle = contacts["pitch_point"]["input"][-1]
     ends = [(path["input"][0], path["input"][-1]) for path in contacts["paths"]]
-    counted = next(curve for curve in curves_of(snapshot) if curve["chart"] == "Contacts at once")
+    counted = next(curve for curve in curves_of(snapshot) if curve["chart"] == "Tooth pairs in contact")
     # Within a fiftieth of a pitch of an end an edge is still as near as what counts as touching.
     beside = 0.02 * cycle / len(ends)
     differ = [

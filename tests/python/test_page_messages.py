@@ -85,7 +85,7 @@ def test_a_bore_that_does_not_fit_is_a_finding_and_the_motion_goes_on(browser, t
         expect(page.locator("#findings li").first).to_contain_text(
             "bore of the driver reaches 52.3597 mm from the axis, but the minimum radius of its outline is 21.5 mm"
         )
-        expect(page.locator("#findings li").first).to_contain_text("what is shown is without driver.bore")
+        expect(page.locator("#findings li").first).to_contain_text("the figures and drawings are without driver.bore")
         expect(page.locator('[id="remark-driver.bore"]')).to_contain_text("52.3597 mm")
         assert page.locator('#form [aria-invalid="true"]').count() == 1
         assert not LONG.search(page.locator("#findings").inner_text())

@@ -253,7 +253,7 @@ def test_the_field_tells_of_every_place(page):
     expect(readout).to_contain_text(words)
     x, y = middle(page, "point 12 of the path")
     page.mouse.move(x + 60, y)
-    expect(readout).to_contain_text("not possible, the distance along the path has several maxima and minima")
+    expect(readout).to_contain_text("not possible, the distance of the path from this axis has several maxima and minima")
     expect(page.locator('#field-faults li[data-fault="extremes"]')).to_be_visible()
     painted = "document.querySelector('#stage canvas').toDataURL()"
     by_ratio = page.evaluate(painted)
@@ -406,7 +406,7 @@ def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased
     typed(page, "gears.arms", "1")
     solved(page)
     make.click()
-    expect(dialog).to_contain_text("full ones are undercut above a module of 0.0334 mm", timeout=30_000)
+    expect(dialog).to_contain_text("full teeth are undercut above a module of 0.0334 mm", timeout=30_000)
     page.get_by_label("Pass within").fill("none")
     page.get_by_label("Pass within").press("Enter")
     expect(dialog).to_contain_text("the band is a number above zero")
@@ -512,7 +512,7 @@ def test_directions_at_points_are_dragged_typed_and_told(page, running):
     angle = float(column(page, 2)[4])
     assert 40 < angle < 85
     # The one direction there is fixes the clamp: it is met as it is drawn.
-    assert wishes(page) == ["✓ clamp off its direction at point 5 0 deg, required -2.0000 deg to 2.0000 deg"]
+    assert wishes(page) == ["✓ clamp direction error at point 5 0 deg, required -2.0000 deg to 2.0000 deg"]
     handle(page, "direction at point 9").focus()
     page.keyboard.press("ArrowDown")
     expect(field(page, "path.direction_deg-8")).not_to_have_value("")
@@ -588,7 +588,7 @@ def test_shapes_to_keep_out_of_are_added_dragged_and_deleted(page, running):
     assert len(re.findall("distance of the arm from", done)) == 3
     typed(page, "wishes.keep_out.ground.name", "arm")
     expect(page.locator("#possible h2")).to_contain_text("A value breaks a rule")
-    expect(page.locator('[id="remark-wishes.keep_out.arm"]')).to_contain_text("a body of that name")
+    expect(page.locator('[id="remark-wishes.keep_out.arm"]')).to_contain_text("a body of the same name")
     typed(page, "wishes.keep_out.arm.name", "stem")
     expect(page.locator('[id="remark-wishes.keep_out.arm.name"]')).to_contain_text("there is a shape stem already")
     handle(page, "height of arm").focus()
@@ -815,7 +815,7 @@ def test_poses_of_a_file_may_have_no_machine(page, running):
     page.locator("#path-file").set_input_files(running.folder / "two.csv")
     counted(page, 2)
     page.get_by_role("button", name="Find the machine").click()
-    expect(page.locator("#possible")).to_contain_text("2 key poses are given; a machine is found for 3 to 7")
+    expect(page.locator("#possible")).to_contain_text("2 key poses are given; there must be 3 to 7")
     expect(page.locator("#make")).to_be_disabled()
 
 
@@ -852,7 +852,7 @@ def test_strangers_and_nonsense_are_refused(running):
     assert running.ask("GET", f"/{'0' * 32}/path", absolute=True)[0] == 403
     wide = {"points": EXAMPLE, "bend_deg": 40, "count": 100_000}
     refused = running.json("POST", "path/map", wide)[1]["refused"]
-    assert refused == "a map has 2 to 200 axes a side, not 100000"
+    assert refused == "a map must have 2 to 200 axes per side, not 100000"
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

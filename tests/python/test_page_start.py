@@ -97,7 +97,7 @@ def test_a_shipped_design_is_made_worked_on_and_left_by_keyboard(start):
     expect(name).to_have_value("transplanter-pair-2021-2.toml")
     name.fill(POINTS.name)
     name.press("Enter")
-    expect(page.locator("#dialog")).to_contain_text(f"{POINTS.name} is there already")
+    expect(page.locator("#dialog")).to_contain_text(f"{POINTS.name} exists already")
     page.keyboard.press("Escape")
     expect(page.locator("#dialog")).to_be_hidden()
     assert "backlash = 0.06" in (folder / POINTS.name).read_text()

@@ -279,8 +279,8 @@ def test_a_search_that_cannot_begin_says_why(served, change, reason):
         ({"key": "pitch.modulus"}, "pitch.modulus"),
         ({"key": "name"}, "name"),
         ({"key": ""}, ""),
-        ({"from": 3.0}, "the values must rise, but go from 3 to 2.5"),
-        ({"to": 2.0}, "the values must rise, but go from 2 to 2"),
+        ({"from": 3.0}, "the values must increase, but go from 3 to 2.5"),
+        ({"to": 2.0}, "the values must increase, but go from 2 to 2"),
     ],
     ids=["no design", "unknown number", "no number", "no key", "falling values", "one value"],
 )

@@ -16,7 +16,7 @@ pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
     vec![
         Curve {
             count: true,
-            ..curve("Contacts at once", "", "", &count)
+            ..curve("Tooth pairs in contact", "", "", &count)
         },
         curve("Backlash of the driven gear", "", "°", &degrees),
         curve("Clearance", "tip to root", "mm", &contact.clearance),
@@ -28,6 +28,11 @@ pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
         ),
         curve("Transmission error", "forward", "rad", forward),
         curve("Transmission error", "reverse", "rad", reverse),
-        curve("Sliding a rad of the driver", "", "mm", &contact.sliding),
+        curve(
+            "Sliding speed per driver speed",
+            "",
+            "mm/rad",
+            &contact.sliding,
+        ),
     ]
 }

@@ -30,7 +30,7 @@ impl Mechanism for Feeder {
     fn definition(&self) -> String {
         let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
         format!(
-            "crank {crank}, coupler {coupler}, rocker {rocker}, frame {frame} mm; {:.4} cycles a minute",
+            "crank {crank}, coupler {coupler}, rocker {rocker}, frame {frame} mm; {:.4} cycles per minute",
             self.cycles_per_minute()
         )
     }
@@ -156,7 +156,7 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
         let words = ["Torque of the crank", name, "N·mm"];
         Curve::new(words, &input, input.iter().map(torque).collect())
     };
-    vec![curve("moving", true), curve("held still", false)]
+    vec![curve("moving", true), curve("at rest", false)]
 }
 
 fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {

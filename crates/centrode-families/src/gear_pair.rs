@@ -29,7 +29,7 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
         } = &remedy.design;
         let angle = tool.pressure_angle().to_degrees();
         teeth += &format!(
-            " of thickness split {} and pressure angle {angle:.2} deg, their phase chosen too,",
+            " of thickness split {} and pressure angle {angle:.2} deg, with their phase also chosen,",
             spec.thickness_split
         );
     }
@@ -39,21 +39,21 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
     let below = match fewer {
         0 => String::new(),
         _ => format!(
-            " (not with {fewer}; a greater number may fail again: check the one you choose)"
+            " (not with {fewer}; a larger number may fail again: check the number you choose)"
         ),
     };
     let start = format!(
-        "{teeth} carry the motion by their flanks alone with {minimum} teeth of the driver{below}"
+        "{teeth} transmit the motion by their flanks alone with {minimum} teeth of the driver{below}"
     );
     if minimum == written && !remedy.fit.is_empty() {
-        return format!("{start}, as many as written");
+        return format!("{start}, the number in the design");
     }
     if minimum <= written {
-        return format!("{start}, and with the {written} written");
+        return format!("{start}, and with the {written} of the design");
     }
     let share = f64::from(minimum) / f64::from(written);
     format!(
-        "{start}: of module {:.4} mm on these pitch curves, or of {:.4} mm on curves {share:.4} times as large",
+        "{start}: module {:.4} mm on these pitch curves, or module {:.4} mm on curves {share:.4} times as large",
         pair.module() / share,
         pair.module()
     )
@@ -136,8 +136,8 @@ impl Resolved for GearPair {
     const NOUN: &'static str = "a gear pair";
 
     const PARTS: &'static [PartName] = &[
-        PartName::new("driver", "The driver of a pair"),
-        PartName::new("driven", "The driven gear of a pair"),
+        PartName::new("driver", "Driver of a gear pair"),
+        PartName::new("driven", "Driven gear of a gear pair"),
         PartName::ASSEMBLY,
     ];
 

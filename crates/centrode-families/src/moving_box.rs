@@ -17,7 +17,7 @@ impl Mechanism for MovingBox {
 
     fn definition(&self) -> String {
         let scheme = match self.design().scheme {
-            Scheme::Shaft => "driven evenly",
+            Scheme::Shaft => "driven at constant speed",
             Scheme::EllipticGear | Scheme::Both => "driven by elliptic gears",
         };
         format!("{}, {scheme}", in_words(self.shaft()))

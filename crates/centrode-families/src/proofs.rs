@@ -9,7 +9,7 @@ use super::Mechanism;
 pub enum NotProved {
     /// No gears of the machine mesh all along the cycle.
     #[error(
-        "there is no certificate for family {family:?} as designed: no pair of its gears meshes all along the cycle"
+        "there is no certificate for this design of family {family:?}: none of its gear pairs is in mesh over the whole cycle"
     )]
     NoPairs {
         /// Family of the design.

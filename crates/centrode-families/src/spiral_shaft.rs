@@ -74,7 +74,7 @@ pub(super) fn drawn(shaft: &SpiralShaft, machine: Result<LinkedMachine, ExportEr
 pub(super) fn in_words(shaft: &SpiralShaft) -> String {
     let design = shaft.design();
     format!(
-        "{} holes, {} mm a turn, {} turns out and back on a shaft of radius {} mm",
+        "{} holes, lead {} mm, {} turns out and back, on a shaft of radius {} mm",
         design.holes,
         design.lead,
         shaft.traverse().turns(),

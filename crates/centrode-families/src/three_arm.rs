@@ -106,28 +106,31 @@ impl Resolved for ThreeArm {
     const NOUN: &'static str = "a three-arm mechanism";
 
     const PARTS: &'static [PartName] = &[
-        PartName::new("sun", "Three arms: the fixed gear"),
-        PartName::new(
-            "intermediate",
-            "Three arms: the gear between sun and planet",
-        ),
-        PartName::new("planet", "Three arms: the gear that carries an arm"),
-        PartName::new("cam", "Three arms: what moves the push rod"),
-        PartName::new("fork", "Three arms: between cam and push rod"),
-        PartName::new("roller", "Three arms: on the fork"),
+        PartName::new("sun", "Three-arm: the fixed gear"),
+        PartName::new("intermediate", "Three-arm: the gear between sun and planet"),
+        PartName::new("planet", "Three-arm: the gear that carries an arm"),
+        PartName::new("cam", "Three-arm: the cam that moves the push rod"),
+        PartName::new("fork", "Three-arm: the fork between cam and push rod"),
+        PartName::new("roller", "Three-arm: the cam roller on the fork"),
         PartName::new(
             "carrier",
-            "Three arms: the plate on either side of the gears",
+            "Three-arm: the carrier plates on both sides of the gears",
         ),
         PartName::new(
             "spacer",
-            "Three arms: what holds the carrier's plates apart",
+            "Three-arm: the spacers between the carrier plates",
         ),
-        PartName::new("housing", "Three arms: the wall of an arm's housing"),
-        PartName::new("cover-rear", "Three arms: its cover towards the gearbox"),
-        PartName::new("cover-front", "Three arms: its cover away from the gearbox"),
-        PartName::new("clamp", "Three arms: a flake of the clamp"),
-        PartName::new("push-rod", "Three arms: with its pusher"),
+        PartName::new("housing", "Three-arm: the wall of an arm's housing"),
+        PartName::new(
+            "cover-rear",
+            "Three-arm: the cover of the housing towards the gearbox",
+        ),
+        PartName::new(
+            "cover-front",
+            "Three-arm: the cover of the housing away from the gearbox",
+        ),
+        PartName::new("clamp", "Three-arm: a flake of the clamp"),
+        PartName::new("push-rod", "Three-arm: the push rod with its pusher"),
         PartName::ASSEMBLY,
     ];
 
@@ -149,8 +152,8 @@ fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve
     let mut curves = three_arm::arm_curves(mechanism);
     if let Some(course) = arm_clearance_course(mechanism, PARTS) {
         let all = [
-            ("from one another", course.arms),
-            ("from the tray", course.tray),
+            ("between the arms", course.arms),
+            ("from arm to tray", course.tray),
         ];
         let found = all.into_iter().filter(|(_, value)| !value.is_empty());
         curves

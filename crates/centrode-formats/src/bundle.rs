@@ -39,7 +39,7 @@ pub enum BundleError {
     },
     /// Files that no export wrote, or that were changed since, would be replaced.
     #[error(
-        "{} has files that no export wrote, or that were changed since: {files}; choose another folder, or replace them with force",
+        "{} contains files that are not from an export, or that were changed since: {files}; choose another folder, or replace them with force",
         folder.display()
     )]
     Foreign {
@@ -49,7 +49,7 @@ pub enum BundleError {
         folder: PathBuf,
     },
     /// The archive would be larger than the format holds.
-    #[error("the archive cannot be made: {0}")]
+    #[error("the archive cannot be created: {0}")]
     Archive(#[from] zip::result::ZipError),
     /// The system refused an action.
     #[error("cannot {action} {}: {source}", path.display())]

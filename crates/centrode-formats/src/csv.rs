@@ -48,7 +48,7 @@ pub enum TableError {
         value: f64,
     },
     /// A heading or word that would break its row.
-    #[error("{word:?} has a comma, quote or line end")]
+    #[error("{word:?} contains a comma, quote or line end")]
     Separator {
         /// The word.
         word: String,

@@ -18,7 +18,7 @@ pub enum Format {
     Stl,
     /// Exact solids for CAD.
     Step,
-    /// Solids with their unit, for printing.
+    /// Solids as meshes with their unit, for 3D printing.
     ThreeMf,
     /// Tables: points of the outlines, motion, forces.
     Csv,

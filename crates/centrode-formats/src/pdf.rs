@@ -79,7 +79,7 @@ pub fn book(
     for sheet in parts.iter().flat_map(|(_, sheets)| *sheets) {
         let [width, height] = sheet.size.size().map(|mm| (mm * POINT) as f32);
         let settings = PageSettings::from_wh(width, height)
-            .ok_or_else(|| PdfError::Library(format!("no page of {width} x {height} pt")))?;
+            .ok_or_else(|| PdfError::Library(format!("a page cannot be {width} x {height} pt")))?;
         let mut page = document.start_page_with(settings);
         let mut surface = page.surface();
         let writer = Writer {

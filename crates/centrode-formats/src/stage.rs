@@ -64,7 +64,7 @@ pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
     const LINKS: u32 = 40;
     match fs::metadata(target) {
         Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        Ok(there) if !there.is_file() => Err(io::Error::other("it is no regular file")),
+        Ok(there) if !there.is_file() => Err(io::Error::other("it is not a regular file")),
         Ok(there) if there.permissions().readonly() => Err(io::Error::new(
             io::ErrorKind::PermissionDenied,
             "it is read-only",

@@ -15,7 +15,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// Reason why a package could not be made.
 #[derive(Debug, Error)]
-#[error("the 3MF package could not be made: {0}")]
+#[error("the 3MF package cannot be created: {0}")]
 pub struct PackageError(#[from] zip::result::ZipError);
 
 impl From<std::io::Error> for PackageError {

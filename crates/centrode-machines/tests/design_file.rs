@@ -318,7 +318,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "mean_ratio = [1, 1]",
             "mean_ratio = [1, 2]",
-            "line 9, column 1: pitch.tooth_count: is 23, which at mean_ratio [1, 2]",
+            "line 9, column 1: pitch.tooth_count: is 23, but with mean_ratio [1, 2]",
         ),
         (
             "mean_ratio = [1, 1]",
@@ -773,7 +773,7 @@ fn titles_hold_no_character_that_xml_has_not() {
         let error = GearPairDesign::from_toml(&title(c)).expect_err("refused");
         let message = error.message();
         assert!(
-            message.ends_with("not 2 with 1 control characters (U+FFFE and U+FFFF count, too)"),
+            message.ends_with("not 2 with 1 control characters (including U+FFFE and U+FFFF)"),
             "{c:?}: {message}"
         );
     }

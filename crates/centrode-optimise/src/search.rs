@@ -239,7 +239,7 @@ impl Search {
         }
     }
 
-    /// Searches until the target is reached, the evaluations are used up or `observe` stops the search; the best point found is
+    /// Searches until the target is reached, maximum number of evaluations reached or `observe` stops the search; the best point found is
     /// stored in every case.
     pub fn run(
         &mut self,

@@ -47,7 +47,9 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
         .map_err(|error| error.message())?;
     if !(ask.from.is_finite() && ask.to.is_finite()) || ask.from >= ask.to {
         let (from, to) = (ask.from, ask.to);
-        return Err(format!("the values must rise, but go from {from} to {to}"));
+        return Err(format!(
+            "the values must increase, but go from {from} to {to}"
+        ));
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();

@@ -7,30 +7,30 @@ use crate::rule::single_line;
 
 /// Entries of the title block of a design's drawing sheets, and their layout.
 ///
-/// An entry left empty stays empty on the sheet.
+/// An empty entry stays empty on the sheet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("x-detail" = true))]
 pub struct DrawingSpec {
-    /// Drawing number; the part's name is added to it.
+    /// Drawing number; the name of the part is added to it.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// Revision.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub revision: String,
-    /// Date of issue, as it is to be printed; a date of TOML as `2026-11-30`.
+    /// Date of issue, printed as written; a TOML date is printed as `2026-11-30`.
     #[serde(skip_serializing_if = "String::is_empty", deserialize_with = "date")]
     pub date: String,
     /// Legal owner.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
-    /// Who has drawn it.
+    /// Name of the person who made the drawing.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub drawn_by: String,
-    /// Who has approved it.
+    /// Name of the person who approved the drawing.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub approved_by: String,
-    /// Size of the sheets; default: the smallest that takes the part.
+    /// Size of the sheets; default: the smallest on which the part fits.
     pub sheet: Option<SheetSize>,
     /// Arrangement of the views.
     pub projection: Projection,
@@ -38,9 +38,9 @@ pub struct DrawingSpec {
     pub general_tolerance: String,
     /// State of the edges.
     pub edges: String,
-    /// Texture of the surfaces without a texture of their own, ISO 21920.
+    /// Surface texture (ISO 21920) of all surfaces without their own symbol.
     pub surface: String,
-    /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
+    /// Surface texture (ISO 21920) of surfaces with a tolerance class up to grade 8, and of flanks and profiles; if empty, `surface` applies to them.
     pub fitted_surface: String,
 }
 
@@ -79,10 +79,10 @@ pub enum SheetSize {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Projection {
-    /// A view lies on the far side of the object: the view from the left on the right.
+    /// A view is placed on the far side of the object: the view from the left is on the right.
     #[default]
     FirstAngle,
-    /// A view lies on the side from which the object is seen.
+    /// A view is placed on the side from which the object is viewed.
     ThirdAngle,
 }
 

@@ -26,7 +26,7 @@ pub struct DesignError {
 #[non_exhaustive]
 pub enum DesignFault {
     /// A file above the maximum size; it is not read to its end.
-    #[error("the file has at least {bytes} bytes; a design file has at most {limit}")]
+    #[error("the file has at least {bytes} bytes; the limit for a design file is {limit}")]
     TooLarge {
         /// Number of bytes read so far.
         bytes: usize,
@@ -37,7 +37,7 @@ pub enum DesignFault {
     #[error("the file is not UTF-8 text")]
     NotText,
     /// Nothing but blanks and comments.
-    #[error("the file is empty: write family = {example:?} and what belongs to it")]
+    #[error("the file is empty: write family = {example:?} and the keys of that family")]
     Empty {
         /// Word of a family.
         example: &'static str,

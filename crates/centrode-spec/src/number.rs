@@ -71,7 +71,7 @@ impl NumberedDesign {
         };
         let no_number = || DesignError {
             key: key.to_owned(),
-            ..DesignError::at_start(DesignFault::WrongType("is no number".into()))
+            ..DesignError::at_start(DesignFault::WrongType("is not a number".into()))
         };
         let steps = steps(key).ok_or_else(unknown)?;
         let mut numbered = Self {

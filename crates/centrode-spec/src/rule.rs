@@ -41,7 +41,7 @@ pub enum Rule {
         unit: &'static str,
     },
     /// A range whose ends are not in order.
-    #[error("must be a range from less to more, not {} to {}", stated(*.0), stated(*.1))]
+    #[error("must be a range from low to high, not {} to {}", stated(*.0), stated(*.1))]
     NotInOrder(f64, f64),
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]
@@ -53,7 +53,7 @@ pub enum Rule {
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),
     /// A number that must not occur twice.
-    #[error("is {} a second time", stated(*.0))]
+    #[error("is {} again, as in an earlier entry", stated(*.0))]
     Twice(f64),
     /// A key that must be given.
     #[error("is needed {0}")]
@@ -72,7 +72,7 @@ pub enum Rule {
     PartName(String),
     /// Words that do not fit one line of a drawing.
     #[error(
-        "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count, too)"
+        "must be one line of at most {most} characters, not {count} with {controls} control characters (including U+FFFE and U+FFFF)"
     )]
     Line {
         /// Characters given.
@@ -84,7 +84,7 @@ pub enum Rule {
     },
     /// Words that are no tolerance class.
     #[error(
-        "must be empty or a tolerance class of ISO 286 for a {of}, like {like:?}, not {word:?}"
+        "must be empty or a tolerance class of ISO 286 for a {of}, such as {like:?}, not {word:?}"
     )]
     NoClass {
         /// Word given.
@@ -98,10 +98,10 @@ pub enum Rule {
     #[error("must be in lowest terms: write {1:?} for {0:?}")]
     LowestTerms([u32; 2], [u32; 2]),
     /// Two different tooth counts for one gear.
-    #[error("is {0}, but the pitch curve has tooth_count {1}: give one of them")]
+    #[error("is {0}, but the pitch curve has tooth_count {1}: give only one of them")]
     ToothCountTwice(u32, u32),
     /// A driven gear without a whole number of teeth.
-    #[error("is {0}, which at mean_ratio {1:?} leaves the driven gear no whole number of teeth: it must be a multiple of {n2}", n2 = .1[1])]
+    #[error("is {0}, but with mean_ratio {1:?} the driven gear then has no whole number of teeth: it must be a multiple of {n2}", n2 = .1[1])]
     DrivenTeeth(u32, [u32; 2]),
     /// A keyway wider than the bore.
     #[error("is {0} mm, but the bore is only {1} mm across")]
@@ -111,7 +111,7 @@ pub enum Rule {
     NoBore,
     /// Two tools of a pair with unlike pressure angles.
     #[error(
-        "is {} deg, but tool.pressure_angle_deg is {} deg: mating flanks touch on one line of action, so both tools need the same",
+        "is {} deg, but tool.pressure_angle_deg is {} deg: mating flanks touch on one line of action, so both tools must have the same angle",
         stated(*.own),
         stated(*.tool)
     )]
@@ -123,7 +123,7 @@ pub enum Rule {
     },
     /// A tip rounding that does not fit the tool's tooth.
     #[error(
-        "is {value}, but at this pressure angle and addendum at most {maximum:.6} fits the tip of the tool"
+        "is {value}, but with this pressure angle and addendum, the tip of the tool has room for at most {maximum:.6}"
     )]
     TipRadius {
         /// Value given.

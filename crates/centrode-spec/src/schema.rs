@@ -22,7 +22,7 @@ pub fn json_schema<F: AsRef<DesignFamily>>(families: &[F]) -> Value {
         .collect();
     without_nulls(json!({
         "oneOf": alternatives,
-        "description": "A mechanism as written: one of the families, by the key `family`.",
+        "description": "Design of a mechanism; the key `family` selects its family.",
         "title": "Design",
         "$schema": generator.settings().meta_schema,
         "$defs": generator.take_definitions(true),

@@ -19,16 +19,16 @@ use crate::wait::wait;
 /// An extreme as the pair of cam angle and value.
 type Peak = (f64, f64);
 
-/// A disc cam, in its own frame: at the cam angle zero the slide points, or the arm's pivot lies, along x.
+/// A disc cam in its own frame. At cam angle zero, the x axis points along the slide, or to the pivot of the arm.
 ///
 /// Args:
-///     follower: What rides on it.
-///     segments: What the follower does in one turn; the spans add up to a whole turn.
+///     follower: Follower of the cam.
+///     segments: Motion of the follower in one turn; the spans must add up to a whole turn.
 ///     base_radius: Radius of the base circle, mm.
-///     rotation: Sense in which the cam turns, "counter-clockwise" or "clockwise".
+///     rotation: Direction in which the cam turns, "counter-clockwise" or "clockwise".
 ///     start: Cam angle at which the first segment begins, rad.
 ///     body: Width, bore and material.
-///     name: Used for file names.
+///     name: Name, used for file names.
 ///     title: One line for drawings.
 ///
 /// >>> import centrode as ct
@@ -105,7 +105,7 @@ impl DiscCam {
         Ok(Self::new(cam, made))
     }
 
-    /// Name, as given.
+    /// Name.
     #[getter]
     fn name(&self) -> &str {
         self.cam.name()
@@ -117,7 +117,7 @@ impl DiscCam {
         self.cam.disc().base_radius()
     }
 
-    /// Angle of a swinging arm to the line of centres on the base circle, rad; zero for a slide.
+    /// Angle between a swinging arm and the line of centres with the follower on the base circle, rad; zero for a slide.
     #[getter]
     fn start_angle(&self) -> f64 {
         self.cam.disc().start_angle()
@@ -129,8 +129,8 @@ impl DiscCam {
         self.cam.radii()
     }
 
-    /// The follower's position, velocity, acceleration and jerk at cam angles, (N, 4): mm or rad, and
-    /// per radian.
+    /// Position, velocity, acceleration and jerk of the follower at cam angles, (N, 4): mm or rad, and derivatives per
+    /// radian of cam angle.
     fn motion(&self, theta: Values) -> Course {
         self.rows(theta, |contact| row(&contact.motion))
     }
@@ -140,19 +140,19 @@ impl DiscCam {
         self.rows(theta, |contact| contact.point.coords.into())
     }
 
-    /// Unit normals of the profile there, (N, 2), out of the cam.
+    /// Unit normals of the profile at the points of contact at cam angles, (N, 2), pointing out of the cam.
     fn normals(&self, theta: Values) -> Course {
         self.rows(theta, |contact| contact.normal.into())
     }
 
-    /// Centres of the roller at cam angles, (N, 2), mm; not a number for a flat face.
+    /// Centres of the roller at cam angles, (N, 2), mm; NaN for a flat face.
     fn roller(&self, theta: Values) -> Course {
         self.rows(theta, |contact| {
             contact.roller.map_or([f64::NAN; 2], |at| [at.x, at.y])
         })
     }
 
-    /// Angles from the direction of lift to the normal at cam angles, (N,), rad.
+    /// Pressure angles at cam angles, (N,), rad: from the direction of lift to the normal.
     fn pressure_angle(&self, theta: Values) -> Course {
         self.each(theta, |contact| contact.pressure_angle)
     }
@@ -162,7 +162,7 @@ impl DiscCam {
         self.each(theta, |contact| contact.curvature)
     }
 
-    /// Curvature of the path of the roller's centre, (N,), 1/mm; not a number for a flat face.
+    /// Curvature of the path of the roller's centre at cam angles, (N,), 1/mm; NaN for a flat face.
     fn pitch_curvature(&self, theta: Values) -> Course {
         self.each(theta, |contact| contact.pitch_curvature.unwrap_or(f64::NAN))
     }
@@ -183,7 +183,7 @@ impl DiscCam {
         Ok(path.map(|path| Rows::new(&path.flatten(tolerance))))
     }
 
-    /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
+    /// Ranges of the cam angle at which undercut removes the contact, rad; empty for a sound cam.
     #[getter]
     fn undercut(&self) -> Vec<(f64, f64)> {
         self.cam.profile().undercut().to_vec()
@@ -201,9 +201,9 @@ impl DiscCam {
         ])
     }
 
-    /// Limits of the cam, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle"
-    /// (rad), "largest_roller" (rollers only), "minimum_radius" of the convex profile, at most zero where it
-    /// is undercut, "largest_wheel" that can grind it (mm), and "regularity", above zero for a sound cam.
+    /// Limits of the cam, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle", rad;
+    /// "largest_roller", mm, for rollers only; "minimum_radius" of the convex profile, mm, zero or negative if it is
+    /// undercut; "largest_wheel" that can grind it, mm; and "regularity", positive for a sound cam.
     #[getter]
     fn limits(&self) -> BTreeMap<&'static str, Peak> {
         let limits = self.cam.disc().limits();
@@ -218,8 +218,8 @@ impl DiscCam {
         named
     }
 
-    /// The minimum base radius, mm, with which the pressure angle is below `rise` while the cam lifts and
-    /// below `fall` while the follower returns, rad (any, by default); `None` if none does.
+    /// The minimum base radius, mm, with which the pressure angle is below `rise` during the rise and below `fall` during
+    /// the return, rad (default: no limit for the return); `None` if there is no such radius.
     #[pyo3(signature = (*, rise, fall=None))]
     fn minimum_base_radius(
         &self,
@@ -232,12 +232,13 @@ impl DiscCam {
         wait(py, move || cam.disc().minimum_base_radius(rise, fall))
     }
 
-    /// The cam's files by name, not written.
+    /// The contents of the files of the cam, by file name, without writing them.
     ///
     /// Args:
-    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv", or "all", or the word of a receiver: "laser", "print",
-    ///         "cad"; by default "dxf", "svg", "step" and "3mf".
-    ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm; by default 1e-3, for "print" 0.01.
+    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv", or "all", or the name of a receiver: "laser",
+    ///         "print" or "cad". Default: "dxf", "svg", "step" and "3mf".
+    ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm; default: 1e-3, and 0.01 for
+    ///         "print".
     ///
     /// Raises:
     ///     ExportError: A file cannot be made.
@@ -255,7 +256,7 @@ impl DiscCam {
         Ok(files::contents(py, &bundle)?)
     }
 
-    /// The cam with its bore, from z = 0 to its width, by its exact edges: for CAD kernels; as `Gear.solid`.
+    /// Solid of the cam with its bore, from z = 0 to its width, with exact edges, for CAD kernels; see `Gear.solid`.
     ///
     /// >>> import centrode as ct
     /// >>> segments = [ct.cam.rise(span=3, lift=5), ct.cam.return_(span=2 * 3.141592653589793 - 3, lift=5)]

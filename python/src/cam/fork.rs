@@ -19,19 +19,19 @@ use crate::word::Word;
 
 const JOINTS: [&str; 2] = ["pin-on-rod", "pin-on-fork"];
 
-/// A swinging follower with the cam's roller on one end and a push rod on the other.
+/// A swinging follower with the cam roller at one end and a push rod at the other.
 ///
-/// With b the angle of the lever to the square on the rod's axis, positive towards retraction, and b0 that with the rod
-/// thrown out, a pin on the rod in a slot of the fork draws it back by l (tan b - tan b0), and a pin on the fork in a
-/// slot across the rod by l (sin b - sin b0).
+/// b is the angle between the lever and the perpendicular to the axis of the rod, positive towards retraction; b0 is this
+/// angle with the rod fully extended. The retraction is l (tan b - tan b0) for a pin on the rod in a slot of the fork,
+/// and l (sin b - sin b0) for a pin on the fork in a slot across the rod.
 ///
 /// Args:
-///     roller_radius: mm.
-///     center_distance: Of the fork's pivot from the cam's axis, mm.
-///     arm_length: Of the roller's centre from the pivot, mm.
-///     lever_length: l, mm: of the rod's axis, or of the pin on the fork, from the pivot.
-///     lever_start: b0, rad.
-///     lifts: Sense in which the fork turns when the cam lifts it.
+///     roller_radius: Radius of the roller, mm.
+///     center_distance: Distance of the fork's pivot from the cam's axis, mm.
+///     arm_length: Distance of the roller's centre from the pivot, mm.
+///     lever_length: l, mm: distance of the rod's axis, or of the pin on the fork, from the pivot.
+///     lever_start: Angle b0, rad.
+///     lifts: Direction in which the fork turns when the cam lifts it.
 ///     joint: "pin-on-rod" or "pin-on-fork".
 ///
 /// Raises:
@@ -101,19 +101,19 @@ impl Fork {
         self.0.arm_length
     }
 
-    /// Length of the lever on the rod, mm.
+    /// Length of the lever that moves the rod, mm.
     #[getter]
     fn lever_length(&self) -> f64 {
         self.lever().length
     }
 
-    /// Angle of the lever to the square on the rod's axis with the rod thrown out, rad.
+    /// Angle between the lever and the perpendicular to the rod's axis with the rod fully extended, rad.
     #[getter]
     fn lever_start(&self) -> f64 {
         self.lever().start
     }
 
-    /// Sense in which the fork turns when the cam lifts it.
+    /// Direction in which the fork turns when the cam lifts it.
     #[getter]
     fn lifts(&self) -> &'static str {
         self.0.lifts.word()
@@ -128,14 +128,13 @@ impl Fork {
         }
     }
 
-    /// How far the rod is drawn back, mm, when the fork has swung by angles, rad.
+    /// Retraction of the rod, mm, at swing angles of the fork, rad.
     fn retraction(&self, swing: Values) -> Course {
         let rod = self.0.rod;
         Course::each(swing, move |swing| rod.retraction(&at_rest(swing)).position)
     }
 
-    /// Swing of the fork, rad, when the rod is drawn back by lengths, mm; not a number where a pin on the
-    /// fork cannot reach so far.
+    /// Swing of the fork, rad, for retractions of the rod, mm; NaN if a pin on the fork cannot reach so far.
     ///
     /// >>> import centrode as ct
     /// >>> fork = ct.cam.Fork(roller_radius=5, center_distance=52, arm_length=45, lever_length=40)
@@ -148,18 +147,18 @@ impl Fork {
         })
     }
 
-    /// The cam that draws the rod back and lets it go as required.
+    /// The cam that moves the rod as required.
     ///
     /// Args:
-    ///     segments: What the rod does while the arm makes one turn about the cam, lifts in mm.
-    ///     base_radius: Radius of the base circle, mm: the roller rests on it with the rod thrown out.
-    ///     rotation: Sense in which the cam turns, seen from the arm.
+    ///     segments: Motion of the rod during one turn of the arm about the cam, with lifts in mm.
+    ///     base_radius: Radius of the base circle, mm; the roller is on it when the rod is fully extended.
+    ///     rotation: Direction in which the cam turns, seen from the arm.
     ///     start: Cam angle at which the first segment begins, rad.
     ///     body: Width, bore and material.
-    ///     name: Used for file names.
+    ///     name: Name, used for file names.
     ///
     /// Raises:
-    ///     CamError: Fork or rod cannot follow.
+    ///     CamError: The fork or the rod cannot follow the motion.
     ///
     /// >>> import centrode as ct
     /// >>> from math import pi
@@ -193,7 +192,10 @@ impl Fork {
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
         };
         if motion.swings() == Some(true) {
-            return Err(Raised::rule("segments", "must have lifts: a rod slides"));
+            return Err(Raised::rule(
+                "segments",
+                "must have lift, not swing: a rod slides",
+            ));
         }
         let (fork, rotation) = (slf.get().0.clone(), Word::of("rotation", rotation)?);
         let body = body.map(|body| body.0.clone()).unwrap_or_default();

@@ -9,7 +9,7 @@ use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by, native};
 use crate::record::Keywords;
 
-/// A normalised motion law: from 0 to 1 while its input goes from 0 to 1.
+/// A normalised motion law: it goes from 0 to 1 while its input goes from 0 to 1.
 ///
 /// Made by ``centrode.cam.law`` and ``centrode.cam.polynomial``.
 ///
@@ -36,7 +36,7 @@ impl Law {
     }
 }
 
-/// The law of that name, as in VDI 2143: "constant-velocity", "parabolic", "harmonic", "cycloidal",
+/// The motion law with this name, as in VDI 2143: "constant-velocity", "parabolic", "harmonic", "cycloidal",
 /// "modified-sine", "modified-trapezoid", "polynomial-345" or "polynomial-4567".
 ///
 /// >>> import centrode as ct
@@ -50,8 +50,8 @@ pub(crate) fn law(name: &str) -> Answer<Law> {
     Law::resolve(spec.ok_or_else(|| Raised::word("law.kind", name, &known))?)
 }
 
-/// The polynomial of lowest degree from 0 to 1 with the required derivatives at both ends: velocity,
-/// acceleration and so on, per unit of the law's own input and lift.
+/// The polynomial of lowest degree from 0 to 1 with the given derivatives at both ends: velocity, acceleration and so on,
+/// per unit of the law's normalised input and lift.
 ///
 /// >>> import centrode as ct
 /// >>> ct.cam.polynomial(start=[0, 0], end=[2, 0]).at([1])
@@ -83,11 +83,12 @@ impl Law {
         Rows(inputs.map(|x| row(&self.law.at(x))).collect())
     }
 
-    /// Peaks of the derivatives between two rests, as in VDI 2143: "velocity" Cv, "acceleration" Ca,
-    /// "jerk" Cj, and "torque" CM, that of velocity times acceleration. Where a derivative jumps, inside
-    /// the law or at rest, the next one is infinite: "velocity_jump" and "acceleration_jump" are the
-    /// maximum jumps, 0 if there are none, "acceleration_inside" and "jerk_inside" the peaks between them.
-    /// A polynomial joins the derivatives given for its ends instead of rest.
+    /// Characteristic values between two dwells, as in VDI 2143: "velocity" Cv, "acceleration" Ca, "jerk" Cj, and
+    /// "torque" CM, the peak of velocity times acceleration.
+    ///
+    /// If a derivative jumps, inside the law or at an end, the peak of the next derivative is infinite. "velocity_jump"
+    /// and "acceleration_jump" are the maximum jumps, 0 if there are none; "acceleration_inside" and "jerk_inside" are
+    /// the peaks between the jumps. The ends of a polynomial have the given derivatives instead of a dwell.
     ///
     /// >>> import centrode as ct
     /// >>> peaks = ct.cam.law("harmonic").characteristic_values

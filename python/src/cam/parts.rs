@@ -15,7 +15,7 @@ use crate::made::{Reduced, by};
 use crate::record::Keywords;
 use crate::word::Word;
 
-/// One part of a follower's motion; made by the functions of ``centrode.cam``.
+/// One segment of a follower's motion; made by the functions of ``centrode.cam``.
 #[pyclass(frozen, eq, module = "centrode.cam")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct Segment(pub(crate) spec::SegmentSpec);
@@ -42,7 +42,7 @@ impl Field for LawSpec {
 
 #[pymethods]
 impl Segment {
-    /// Cam angle it takes, rad.
+    /// Cam angle of the segment, rad.
     #[getter]
     fn span(&self) -> f64 {
         self.0.span()
@@ -101,7 +101,7 @@ impl Segment {
 
 #[pymethods]
 impl Follower {
-    /// Whether its motion is an angle.
+    /// Whether the follower is a swinging arm.
     #[getter]
     fn swings(&self) -> bool {
         self.0.swings()
@@ -160,8 +160,7 @@ fn travel(
     Ok(build!(of, keywords, spec::Travel { span }, "": lift, swing, law))
 }
 
-/// A rise over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm); the law is
-/// "cycloidal" by default.
+/// A rise over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm); default law: "cycloidal".
 ///
 /// >>> import centrode as ct
 /// >>> ct.cam.rise(span=2, lift=10, law="modified-sine")
@@ -185,14 +184,14 @@ pub(crate) fn return_(span: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<
     Ok(Segment(spec::SegmentSpec::Return(travel)))
 }
 
-/// No motion over the cam angle `span`.
+/// A dwell over the cam angle `span`.
 #[pyfunction]
 #[pyo3(signature = (*, span))]
 pub(crate) fn dwell(span: f64) -> Segment {
     Segment(spec::SegmentSpec::Dwell(spec::Dwell { span }))
 }
 
-/// The fifth-degree polynomial between given velocities and accelerations, per radian of cam angle.
+/// A polynomial of degree five between given velocities and accelerations, per radian of cam angle.
 #[pyfunction]
 #[pyo3(signature = (*, span, **keywords), text_signature = "(*, span, lift=None, swing=None, start_velocity=0.0, start_acceleration=0.0, end_velocity=0.0, end_acceleration=0.0)")]
 pub(crate) fn transition(span: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<Segment> {
@@ -207,7 +206,8 @@ fn follower(follower: spec::Follower) -> Answer<Follower> {
     Ok(Follower(follower))
 }
 
-/// A roller, or with no radius a point, on a slide that passes the axis at `offset`, mm.
+/// A translating roller follower, or knife-edge follower if the radius is 0. `offset` is the distance of the slide from
+/// the cam axis, mm.
 ///
 /// >>> import centrode as ct
 /// >>> ct.cam.translating_roller(roller_radius=8).swings
@@ -221,13 +221,14 @@ pub(crate) fn translating_roller(roller_radius: f64, offset: f64) -> Answer<Foll
     }))
 }
 
-/// A flat face square to its slide.
+/// A translating flat-faced follower, its face perpendicular to the slide.
 #[pyfunction]
 pub(crate) fn translating_flat() -> Answer<Follower> {
     follower(spec::Follower::TranslatingFlat(spec::TranslatingFlat {}))
 }
 
-/// A roller, or with no radius a point, on a swinging arm; `lifts` is the way it turns when lifted.
+/// A swinging roller follower, or knife-edge follower if the radius is 0. `lifts` is the direction in which the arm turns
+/// when it is lifted.
 #[pyfunction]
 #[pyo3(signature = (*, roller_radius, center_distance, arm_length, lifts="counter-clockwise"))]
 pub(crate) fn swinging_roller(
@@ -244,7 +245,7 @@ pub(crate) fn swinging_roller(
     }))
 }
 
-/// A flat face on a swinging arm, standing `face_offset` before the pivot towards the cam, mm.
+/// A swinging flat-faced follower. `face_offset` is the distance of the face from the pivot towards the cam, mm.
 #[pyfunction]
 #[pyo3(signature = (*, center_distance, face_offset=0.0, lifts="counter-clockwise"))]
 pub(crate) fn swinging_flat(

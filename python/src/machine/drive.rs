@@ -14,7 +14,7 @@ use crate::made::{Reduced, by};
 use crate::record::Keywords;
 use crate::wait::wait;
 
-/// Gears that drive the crank of a machine so that its output does what its goals require, found by `gear_drive`.
+/// Gears that drive the crank of a machine so that its output meets its goals, found by `gear_drive`.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct GearDrive {
@@ -26,19 +26,21 @@ pub(crate) struct GearDrive {
     found: Found,
 }
 
-/// Finds the pair of non-circular gears that drives a crank so that the output of the machine does what its goals require.
+/// Designs the pair of non-circular gears that drives a crank so that the output of the machine meets its goals.
 ///
-/// Goals over "deviation" with `uniform` say where the output goes evenly, goals over "span" with maximum and within_deg where
-/// it rests at an end of its stroke; all of one figure. In between the crank's speed is free and changes smoothly.
+/// Goals with over = "deviation" and `uniform` define where the output moves uniformly. Goals with over = "span", maximum
+/// and within_deg define where it rests at an end of its stroke. All of them must have one figure. Between these ranges
+/// the speed of the crank is free and changes smoothly.
 ///
 /// Args:
-///     machine: Machine whose crank turns by law = { ratio = 1 } on a point of the frame; no other body moves by the input.
+///     machine: Machine whose crank turns by law = { ratio = 1 } on a point of the frame; no other body may move by the
+///         input.
 ///     body: Name of the crank.
 ///     center_distance: Distance of the new shaft from the crank's axis, mm.
 ///     direction_deg: Direction from the crank's axis to the new shaft, degrees.
 ///
 /// Raises:
-///     MechanismError: The body is no crank, or no gears do what the goals require.
+///     MechanismError: The body is not a crank, or no gears meet the goals.
 ///
 /// >>> import centrode as ct
 /// >>> press = ct.Machine.from_toml('''
@@ -95,7 +97,7 @@ pub(crate) fn gear_drive(
 
 #[pymethods]
 impl GearDrive {
-    /// Minimum and maximum ratio: speed of the crank by that of the new shaft.
+    /// Minimum and maximum ratio: speed of the crank divided by that of the new shaft.
     #[getter]
     fn ratios(&self) -> (f64, f64) {
         let [minimum, maximum] = self.timing.ratios();
@@ -108,28 +110,28 @@ impl GearDrive {
         self.timing.places().into()
     }
 
-    /// Maximum distance of the output from where the law has it, mm or rad, with the law as the design holds it.
+    /// Maximum deviation of the output from its exact law, mm or rad, with the law as written in the design.
     #[getter]
     fn miss(&self) -> f64 {
         self.found.miss.value
     }
 
-    /// Minimum radii of curvature of both pitch curves where convex, mm: driver and driven gear.
+    /// Minimum convex radii of curvature of both pitch curves, mm: driver and driven gear.
     #[getter]
     fn minimum_radii(&self) -> (f64, f64) {
         self.found.minimum_radii.into()
     }
 
-    /// Turn of the crank by that of the new shaft, rad: of an array, an array of the same shape.
+    /// Angle of the crank as a function of the angle of the new shaft, rad; for an array, an array of the same shape.
     fn law(&self, phi: Values) -> Course {
         let timing = Arc::clone(&self.timing);
         Course::each(phi, move |phi| timing.at(phi).position)
     }
 
-    /// The machine with the drive, its pair with the largest teeth whose flanks carry the motion alone.
+    /// The machine with the drive; its pair has the largest teeth whose flanks alone transmit the motion.
     ///
     /// Raises:
-    ///     MechanismError: There are no such teeth, or its parts cannot be made.
+    ///     MechanismError: There are no such teeth, or a part cannot be made.
     fn machine(&self, py: Python<'_>) -> Answer<Py<Machine>> {
         let design = self.found.design.clone();
         let composed = wait(py, move || {

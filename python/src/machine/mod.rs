@@ -18,10 +18,10 @@ use crate::forces::Names;
 use crate::mechanism::Mechanism;
 use crate::wait::wait;
 
-/// A planar machine composed in its design file: bodies that turn, slide or are fixed, laws and dyads.
+/// A planar machine composed in its design file of bodies that turn, slide or are fixed, laws and dyads.
 ///
-/// Made by `from_toml` or `load`; `template("machine")` is a design to start from. The input `phi` is the angle the driving
-/// shaft has turned by, rad.
+/// Made by `from_toml` or `load`; `template("machine")` is a design to start from. The input `phi` is the angle of the
+/// driving shaft, rad.
 ///
 /// >>> import centrode as ct
 /// >>> leg = ct.Machine.from_toml(ct.template("machine"))
@@ -62,7 +62,7 @@ impl Machine {
 
 #[pymethods]
 impl Machine {
-    /// Names of the bodies, the frame first, each after those that it needs.
+    /// Names of the bodies: the frame first, each body after those on which it depends.
     #[getter]
     fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.0.bodies().iter().map(|body| &body.name))
@@ -93,10 +93,11 @@ impl Machine {
         self.0.speed()
     }
 
-    /// A point at inputs, mm, or its derivative by the input: an array of the shape of `phi` and then (2,).
+    /// Position of a point at inputs, mm, or a derivative with respect to the input: an array of the shape of `phi` and
+    /// then (2,).
     ///
     /// Args:
-    ///     name: `body.point`, or the point alone where no other body has one of that name.
+    ///     name: `body.point`, or only the point if no other body has a point of that name.
     ///     phi: Inputs, rad.
     ///     order: 0 for the position, 1 to 3 for derivatives, mm/rad, mm/rad² and mm/rad³.
     ///
@@ -130,8 +131,8 @@ impl Machine {
         self.at_each(phi, &[points.len(), 2], points)
     }
 
-    /// A body at inputs: x and y of its origin, mm, and its angle, rad, without jumps, or their derivatives by the input: an
-    /// array of the shape of `phi` and then (3,).
+    /// Position of a body at inputs: x and y of its origin, mm, and its angle, rad, without jumps, or their derivatives
+    /// with respect to the input: an array of the shape of `phi` and then (3,).
     ///
     /// Args:
     ///     name: Name of the body.
@@ -154,18 +155,20 @@ impl Machine {
         }))
     }
 
-    /// Clearance of two bodies, with their plates and gears, or of a body and an obstacle, mm, proven between samples to within
-    /// `tolerance` (mm): the minimum over the cycle and the input there, rad, or at inputs an array of the shape of `phi`.
-    /// Negative where they overlap: how deep one lies in the other. Infinite where they share no height along the shafts.
+    /// Clearance between two bodies with their plates and gears, or between a body and an obstacle, mm.
+    ///
+    /// Without `phi`: the minimum over the cycle, proven between samples to within `tolerance` (mm), and its input, rad.
+    /// With inputs: an array of the shape of `phi`. Negative if they overlap: the depth of penetration. Infinite if they
+    /// have no common height along the shafts.
     ///
     /// Args:
     ///     first: Name of a body or an obstacle.
-    ///     second: Name of another one.
+    ///     second: Name of another body or obstacle.
     ///     phi: Inputs, rad; default: the whole cycle.
     ///     tolerance: Accuracy, mm.
     ///
     /// Raises:
-    ///     DesignError: There is no such body or obstacle, or both are on one body.
+    ///     DesignError: There is no such body or obstacle, or both belong to one body.
     ///
     /// >>> import centrode as ct
     /// >>> leg = ct.Machine.from_toml(ct.template("machine") + "[obstacles.ground]\nbelow = -100")
@@ -222,19 +225,21 @@ impl Machine {
         Ok(course.into_bound_py_any(py)?)
     }
 
-    /// Forces at inputs, rad, that turn evenly, by the design's names: `input` the torque that the input needs, N mm; `joints`
-    /// the force on each body by its name, N along x and y of the frame; `closures` that on the second body of the pin that
-    /// closes a dyad, by both; `meshes` that along the normal of the teeth that move a body, by its name, N.
+    /// Forces at inputs (rad) that turn at constant speed, by the names in the design.
     ///
-    /// Inertia, weight and the loads of the design count; friction and backlash are omitted. `drives` is the torque (N mm) or
-    /// force (N) of what moves a body: zero where teeth or a dyad do.
+    /// `input`: required torque of the input, N mm. `joints`: force on each body, by its name, N along x and y of the
+    /// frame. `closures`: force on the second body of the pin that closes a dyad, N, by both bodies. `meshes`: force
+    /// along the normal of the teeth that move a body, N, by its name. `drives`: torque (N mm) or force (N) of the drive
+    /// that moves a body; zero for bodies moved by teeth or a dyad.
+    ///
+    /// Inertia, weight and the loads of the design are included; friction and backlash are not.
     ///
     /// Args:
     ///     phi: Inputs, rad.
-    ///     speed: Speed of the input, rad/s; default: the design's. Zero holds it still.
+    ///     speed: Speed of the input, rad/s; default: the design's. Zero: at rest.
     ///
     /// Raises:
-    ///     MechanismError: A part cannot be made, more than one thing holds a body, or no force balances the load.
+    ///     MechanismError: A part cannot be made, a body is held more than once, or no force balances the load.
     ///
     /// >>> import centrode as ct
     /// >>> forces = ct.Machine.from_toml(ct.template("machine")).forces([0.0, 1.0])
@@ -252,11 +257,11 @@ impl Machine {
         slf.as_super().forces_by(py, phi, speed, Names::OF_BODIES)
     }
 
-    /// Transmission angle of a dyad at inputs, rad: a right angle where it holds best, 0 where it is stretched or folded.
+    /// Transmission angle of a dyad at inputs, rad: pi / 2 is the best value, and 0 means stretched or folded.
     ///
-    /// Of a dyad RRR it is the angle between the bars at their joint, from 0 to pi; of the others an angle between two
-    /// lines, from 0 to pi / 2. The figure ``transmission_angle_min`` of a check, and goals, count an angle above pi / 2
-    /// by what it is short of pi.
+    /// For a dyad RRR it is the angle between the bars at their joint, from 0 to pi; for the others an angle between two
+    /// lines, from 0 to pi / 2. The figure ``transmission_angle_min`` of a check, and goals, use pi minus the angle for
+    /// an angle above pi / 2.
     ///
     /// Raises:
     ///     DesignError: There is no such dyad.

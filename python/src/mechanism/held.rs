@@ -16,9 +16,9 @@ use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, P
 use pyo3::types::PyDict;
 use std::sync::{Arc, OnceLock};
 
-/// A machine of whatever family: what `load` gives is one of its subclasses.
+/// A machine of any family; `load` returns an object of one of its subclasses.
 ///
-/// Two are equal if their designs are.
+/// Two machines are equal if their designs are equal.
 ///
 /// >>> import centrode as ct
 /// >>> machine = ct.Mechanism.from_toml(ct.template("feeder"))

@@ -64,25 +64,25 @@ impl Mechanism {
         Ok(self.0.design().to_toml()?)
     }
 
-    /// Name, as written in the design.
+    /// Name in the design.
     #[getter]
     fn name(&self) -> &str {
         self.0.design().name()
     }
 
-    /// Title, as written in the design.
+    /// Title in the design.
     #[getter]
     fn title(&self) -> &str {
         self.0.design().title()
     }
 
-    /// The machine in one line.
+    /// Description of the machine in one line.
     #[getter]
     fn definition(&self) -> String {
         self.0.definition()
     }
 
-    /// Checks all there is to check of the machine: figures, findings, goals.
+    /// Runs the complete check of the machine: figures, findings, goals.
     ///
     /// >>> import centrode as ct
     /// >>> report = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23)).check()
@@ -101,14 +101,15 @@ impl Mechanism {
         Ok(record::report(py, &report)?)
     }
 
-    /// Writes a certificate of a gear pair's contact at every driver angle, as `centrode prove` does; gives the path.
+    /// Writes a certificate of the contact of a gear pair at every driver angle, as `centrode prove` does; returns the
+    /// path.
     ///
-    /// The certificate claims, `tools/proof_checker.py` proves or refuses it. Where the gears do not hold each other all
-    /// along the cycle there is none, and the error says where.
+    /// The certificate is only a claim; `tools/proof_checker.py` proves or rejects it. If the gears lose contact
+    /// somewhere in the cycle, there is no certificate, and the error states the position.
     ///
     /// Args:
     ///     path: File to write.
-    ///     pair: Name of a pair of the machine; by default its only one.
+    ///     pair: Name of a pair of the machine; default: its only pair.
     ///
     /// Raises:
     ///     MechanismError: There is no such pair, there are several, or the pair has no certificate.
@@ -124,7 +125,7 @@ impl Mechanism {
         files::_write(py, path, proof.file().map_err(ExportError::from)?)
     }
 
-    /// The goals: figure, range, margin and progress of each; none in a family without goals.
+    /// The goals, each with figure, range, margin and progress; empty for a family without goals.
     ///
     /// >>> import centrode as ct
     /// >>> goals = ct.ThreeArm.from_toml(ct.template("three-arm")).goals()
@@ -135,7 +136,7 @@ impl Mechanism {
         Ok(record::goals(py, &report.goals)?)
     }
 
-    /// The table of motion at inputs, rad: by its heading each column, of the shape of `phi`.
+    /// The table of motion at inputs (rad): each column by its heading, of the shape of `phi`.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20), mean_ratio=(2, 1))
@@ -152,8 +153,8 @@ impl Mechanism {
         Ok(columns)
     }
 
-    /// Poses of every link at inputs, rad, in the frame of the first: by its name an array of the shape of `phi` and
-    /// then (4, 4), lengths in mm.
+    /// Poses of all links at inputs (rad), in the frame of the first link: for each name an array of the shape of `phi`
+    /// and then (4, 4), lengths in mm.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -163,17 +164,18 @@ impl Mechanism {
         self.framed(py, phi)
     }
 
-    /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
+    /// Forces at inputs (rad) that turn at constant speed: the torque of the input and the forces on joints, pins,
+    /// rollers and teeth.
     ///
-    /// The links weigh what their bodies do, with the loads of the design. Wear, backlash and, but for grooves and rails,
-    /// friction are omitted.
+    /// The links have the mass of their bodies, and the loads of the design are included. Wear and backlash are not
+    /// included; friction is included only in grooves and on rails.
     ///
     /// Args:
     ///     phi: Inputs, rad.
-    ///     speed: Speed of the input, rad/s; default: the design's, or 1 where it says nothing. Zero holds it still.
+    ///     speed: Speed of the input, rad/s; default: the design's, or 1 if the design gives none. Zero: at rest.
     ///
     /// Raises:
-    ///     MechanismError: A part cannot be made, more than one thing holds a link, or no force balances the load.
+    ///     MechanismError: A part cannot be made, a link is held more than once, or no force balances the load.
     ///
     /// >>> import centrode as ct
     /// >>> forces = ct.Feeder.from_toml(ct.template("feeder")).forces([0.0, 1.0], speed=0)
@@ -191,7 +193,7 @@ impl Mechanism {
         self.forces_by(py, phi, speed, Names::OF_LINKS)
     }
 
-    /// The parts that a shop makes or buys for the machine, in the order of its parts list.
+    /// The parts to make or buy for the machine, in the order of its parts list.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -203,11 +205,12 @@ impl Mechanism {
         Ok(record::parts(py, &machine)?)
     }
 
-    /// The parts that are straight extrusions, by the names of their files: exact edges and heights, for CAD kernels.
+    /// The parts that are straight extrusions, by the names of their files, with exact edges and heights, for CAD
+    /// kernels.
     ///
     /// Args:
-    ///     parts: Names of parts, as their files have them; all by default.
-    ///     tolerance: Sides shorter than this, mm, are closed up: a CAD kernel takes them for points.
+    ///     parts: Names of parts, as in their file names; default: all.
+    ///     tolerance: Sides shorter than this, mm, are removed, because a CAD kernel treats them as points.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -223,11 +226,11 @@ impl Mechanism {
         self.kept_solids(py, parts, tolerance)
     }
 
-    /// The links with their bodies and the joints that carry them; none comes before the one that carries it.
+    /// The links with their bodies and the joints that carry them; each link comes after the link that carries it.
     ///
     /// Args:
     ///     tolerance: As for `solids`.
-    ///     bodies: Whether they come with their bodies, which takes longer.
+    ///     bodies: Whether to include the bodies, which takes longer.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -244,15 +247,16 @@ impl Mechanism {
         solid::links(py, &*self.links(py)?, bodies.then_some(shortest))
     }
 
-    /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table
-    /// [bounds], where it has one, how far.
+    /// Searches for a better machine, starting from this one. The table [optimise] of the design lists the parameters
+    /// that may change; a table [bounds], if present, gives their bounds.
     ///
     /// Args:
     ///     method: "guided", "cma-es", "de" or "ga".
-    ///     seed: Same seed, same answer, on any number of cores.
-    ///     evaluations: Maximum number of points evaluated; the generation under way is finished.
-    ///     population: Points per generation; default: by the method.
-    ///     progress: Called with evaluations, violation and objective of the best found; False ends the search.
+    ///     seed: Random seed; one seed gives the same result on any number of cores.
+    ///     evaluations: Maximum number of points evaluated; the current generation is finished.
+    ///     population: Points per generation; default: depends on the method.
+    ///     progress: Called with the number of evaluations, and violation and objective of the best point; False ends the
+    ///         search.
     ///
     /// Raises:
     ///     MechanismError: There is no search for such a design.
@@ -283,13 +287,14 @@ impl Mechanism {
         search::optimised(py, family, machine, strategy, settings, progress.as_ref())
     }
 
-    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
-    /// machine.
+    /// Response of goals and figures to one number of the design: for each name, the figure at each value; NaN if there
+    /// is no machine.
     ///
     /// Args:
-    ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1", "crank" or "pivot_x".
-    ///     values: In the file's unit: mm, degrees.
-    ///     whole: Compute the teeth and the cam, too, which takes some ten times as long.
+    ///     parameter: Key in the design file, such as "arm.tip_distance", or name of a parameter, such as "r1", "crank"
+    ///         or "pivot_x".
+    ///     values: Values of the parameter in the unit of the design file: mm, degrees.
+    ///     whole: Whether to compute also the teeth and the cam, which takes about ten times as long.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -309,7 +314,7 @@ impl Mechanism {
         self.answers(py, parameter, values, whole)
     }
 
-    /// The files of the machine, name to contents, without writing them; `export` writes them.
+    /// The contents of the files of the machine, by file name, without writing them; `export` writes them.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
@@ -339,25 +344,29 @@ impl Mechanism {
         Ok(files::contents(py, &bundle)?)
     }
 
-    /// Writes the machine's files into a directory, which is made if it is missing; gives their paths.
+    /// Writes the files of the machine into a directory, which is created if it does not exist; returns their paths.
     ///
-    /// Every part is written once, however many there are; every file whole or not at all, the same from run to run.
+    /// Every part is written once, also if the machine has several of it. Every file is written completely or not at all,
+    /// and is the same in every run.
     ///
     /// Args:
-    ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf", or the word of a
-    ///         receiver: "laser", "print", "cad", "drawing" or "simulation", or "all"; by default "dxf", "svg", "pdf", "step" and "3mf".
-    ///     parts: Names of parts, as their files have them, or "assembly"; all by default. Motion and models are of the
-    ///         whole. A family whose parts have no names takes none.
-    ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm; by default
-    ///         1e-3, for "print" 0.01.
+    ///     directory: Directory for the files.
+    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf", or the name of a
+    ///         receiver: "laser", "print", "cad", "drawing" or "simulation", or "all". Default: "dxf", "svg", "pdf",
+    ///         "step" and "3mf".
+    ///     parts: Names of parts, as in their file names, or "assembly"; default: all. Motion and simulator models are
+    ///         always of the whole machine. Not for a family whose parts have no names.
+    ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm;
+    ///         default: 1e-3, and 0.01 for "print".
     ///     dxf_version: "R2010" or "R12".
     ///     dxf_curves: "arcs", "splines" or "chords" (straight lines within the tolerance).
-    ///     layers: "cut", what is cut alone, or "all", with reference curves that do not plot, in drawings of parts.
-    ///     force: Whether to replace files that no export wrote into the directory, or that were changed since.
+    ///     layers: "cut", only the contours to cut; or "all", in drawings of parts also reference curves, which do not
+    ///         plot.
+    ///     force: Whether to replace also files in the directory that are not from an export, or that were changed since.
     ///
     /// Raises:
-    ///     ExportError: A part does not exist, a file cannot be made or written, or such a file would be replaced.
+    ///     ExportError: A part does not exist, a file cannot be created or written, or `force` is required to replace a
+    ///         file.
     ///
     /// >>> import centrode as ct, tempfile
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))

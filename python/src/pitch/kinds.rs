@@ -55,7 +55,7 @@ macro_rules! curve {
     }};
 }
 
-/// A circle around the shaft axis: an ordinary gear. Give `radius`, or `module` and `tooth_count`.
+/// A circle around the shaft axis, for an ordinary gear. Give `radius`, or `module` and `tooth_count`.
 ///
 /// >>> import centrode as ct
 /// >>> round(ct.pitch.circle(radius=20, tooth_count=20).module, 12)
@@ -66,7 +66,7 @@ pub(crate) fn circle(keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
     curve!("circle", keywords, Circle: radius, module, tooth_count, diametral_pitch)
 }
 
-/// A circle whose shaft axis is off its centre, by `eccentricity` radii.
+/// A circle with its shaft axis off centre; `eccentricity` is this distance divided by the radius.
 ///
 /// >>> import centrode as ct
 /// >>> ct.pitch.eccentric_circle(eccentricity=0.2, radius=20).points([0.0])
@@ -80,7 +80,7 @@ pub(crate) fn eccentric_circle(
     curve!("eccentric_circle", keywords, EccentricCircle { eccentricity }: radius, module, tooth_count, diametral_pitch)
 }
 
-/// An ellipse turning about a focus, its far end at the polar angle zero: r = A (1 - k^2) / (1 - k cos phi).
+/// An ellipse that turns about a focus; its farthest point is at the polar angle zero: r = A (1 - k^2) / (1 - k cos phi).
 ///
 /// Give `semi_major_axis` A, or `module` and `tooth_count`; k is `eccentricity`.
 ///
@@ -93,7 +93,7 @@ pub(crate) fn ellipse(eccentricity: f64, keywords: Option<Bound<'_, PyDict>>) ->
     curve!("ellipse", keywords, Ellipse { eccentricity }: semi_major_axis, module, tooth_count, diametral_pitch)
 }
 
-/// A focal ellipse drawn together so that it repeats `lobes` times in one turn.
+/// A focal ellipse whose polar angle is compressed so that it repeats `lobes` times in one turn.
 ///
 /// >>> import centrode as ct
 /// >>> ct.pitch.lobed_ellipse(lobes=2, eccentricity=0.1, module=2, tooth_count=30).tooth_count
@@ -112,8 +112,9 @@ pub(crate) fn lobed_ellipse(
 
 /// A closed uniform B-spline, from control points or (`interpolate=True`) through the points.
 ///
-/// Points are `radius` (mm) and `angle` (rad) in the polar plane, `x` and `y` (mm) in the cartesian one. The
-/// curve has a size of its own: `module` with `tooth_count` scales it, `tooth_count` alone gives the module.
+/// Points are `radius` (mm) and `angle` (rad) in the polar plane, `x` and `y` (mm) in the cartesian one. The points
+/// determine the size of the curve. `module` with `tooth_count` scales it; with `tooth_count` alone, the module follows
+/// from the size.
 ///
 /// >>> import centrode as ct
 /// >>> square = ct.pitch.bspline(x=[10, -10, -10, 10], y=[10, 10, -10, -10], plane="cartesian", degree=2)
@@ -126,7 +127,8 @@ pub(crate) fn bspline(keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
         radius, angle, x, y, degree, plane, interpolate, module, tooth_count, diametral_pitch)
 }
 
-/// A closed chain of Bezier arcs: of each arc all control points but the last, which is the next one's first.
+/// A closed chain of Bezier arcs. For each arc, give all control points except the last, which is the first of the next
+/// arc.
 ///
 /// >>> import centrode as ct
 /// >>> x, y = [10, 0, -10, -10, -10, 0, 10, 10], [10, 10, 10, 0, -10, -10, -10, 0]
@@ -158,14 +160,15 @@ pub(crate) fn limacon(
 /// Radius as a function of the polar angle: a formula in ``phi``, radii, or a Fourier series.
 ///
 /// Args:
-///     radius: A formula; or radii, mm, over equal steps from the angle zero, or at `angle`.
+///     radius: A formula, or radii, mm, at equal steps from the angle zero, or at the angles `angle`.
 ///     angle: Polar angles of the radii, rad, increasing within one turn.
-///     interpolation: Between the radii: "quintic" over equal steps, "cubic" with `angle`, or "trigonometric".
+///     interpolation: Interpolation between the radii: "quintic" for equal steps, "cubic" with `angle`, or
+///         "trigonometric".
 ///     mean: Mean radius of a Fourier series, mm.
 ///     cos: Cosine coefficients from the first harmonic, mm.
 ///     sin: Sine coefficients from the first harmonic, mm.
-///     module: Module, mm, with `tooth_count`: scales the curve.
-///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///     module: Module, mm; with `tooth_count`, it scales the curve.
+///     tooth_count: Number of teeth; if given alone, the module follows from the size of the curve.
 ///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct
@@ -181,13 +184,13 @@ pub(crate) fn polar(radius: Option<Law>, keywords: Option<Bound<'_, PyDict>>) ->
         angle, interpolation, mean, cos, sin, module, tooth_count, diametral_pitch)
 }
 
-/// The curve that turns the driven gear by a given law: a formula in ``phi``, or samples over one driver turn.
+/// The curve that turns the driven gear by a given law, which is a formula in ``phi`` or samples over one driver turn.
 ///
 /// Args:
-///     driven_angle: Driven angle, rad, as a formula in the driver angle ``phi`` (rad); or at equal steps of one
-///         driver turn, both ends included.
-///     interpolation: Between the samples; "quintic" by default.
-///     center_distance: mm; or give `module` and `tooth_count`.
+///     driven_angle: Driven angle, rad, as a formula in the driver angle ``phi`` (rad), or as samples at equal steps of
+///         one driver turn, including both ends.
+///     interpolation: Interpolation between the samples; default: "quintic".
+///     center_distance: Centre distance, mm; or give `module` and `tooth_count`.
 ///     module: Module, mm.
 ///     tooth_count: Number of teeth.
 ///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
@@ -207,7 +210,7 @@ pub(crate) fn from_transmission(
         interpolation, center_distance, module, tooth_count, diametral_pitch)
 }
 
-/// The curve with a given ratio d driven / d driver: a formula in ``phi``, or samples over one driver turn.
+/// The curve with a given ratio d driven / d driver, which is a formula in ``phi`` or samples over one driver turn.
 ///
 /// Samples are at equal steps of one driver turn, without the repeated end.
 ///
@@ -223,15 +226,15 @@ pub(crate) fn from_ratio(ratio: Law, keywords: Option<Bound<'_, PyDict>>) -> Ans
         interpolation, center_distance, module, tooth_count, diametral_pitch)
 }
 
-/// The curve that rolls on another: the driven curve of one pair as the driver of the next.
+/// The curve that rolls on another curve: the driven curve of one pair, to be the driver of the next pair.
 ///
-/// The conjugate of the conjugate, at the mean ratio turned round, is the original.
+/// The conjugate of the conjugate, with the inverse mean ratio, is the original curve.
 ///
 /// Args:
-///     of: The curve it rolls on.
+///     of: The curve on which it rolls.
 ///     mean_ratio: Turns of `of` : turns of this curve.
-///     module: Module, mm, with `tooth_count`: scales the curve.
-///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///     module: Module, mm; with `tooth_count`, it scales the curve.
+///     tooth_count: Number of teeth; if given alone, the module follows from the size of the curve.
 ///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct

@@ -10,7 +10,7 @@ use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, Python, pyclass, pyfun
 use crate::array::{Numbers, Rows};
 use crate::error::{Answer, finite};
 
-/// A pitch curve around the shaft axis at the origin, proved to wind round it exactly once.
+/// A pitch curve around the shaft axis at the origin, proven to go round it exactly once.
 ///
 /// Made by the functions of ``centrode.pitch``.
 ///
@@ -45,7 +45,7 @@ impl Pitch {
 
 #[pymethods]
 impl Pitch {
-    /// Definition of the curve, in one line.
+    /// Definition of the curve in one line.
     #[getter]
     fn definition(&self) -> &str {
         &self.resolved.definition
@@ -63,13 +63,14 @@ impl Pitch {
         self.resolved.tooth_count
     }
 
-    /// Turns of driver and driven gear the description requires, if it does.
+    /// Mean ratio (turns of driver, turns of driven gear) implied by the definition of the curve; None if it implies
+    /// none.
     #[getter]
     fn implied_ratio(&self) -> Option<(u32, u32)> {
         self.resolved.implied_ratio
     }
 
-    /// Parameter over which the curve closes.
+    /// Period of the parameter of the curve.
     #[getter]
     fn period(&self) -> f64 {
         self.resolved.curve.period()

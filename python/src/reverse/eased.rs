@@ -62,7 +62,7 @@ pub(super) fn requested(
         (None, None) if is_wished => requested(vec![0.0]),
         (None, None) => Ok(None),
         (None, Some(_)) => {
-            let sentence = "it eases a path: say by how much with band";
+            let sentence = "it limits how far a path is eased: give band";
             Err(Raised::sentence("module", sentence.into()))
         }
     }
@@ -101,7 +101,7 @@ impl Eased {
     }
 }
 
-/// Points along the path of an SVG file's bytes.
+/// Points along the path of an SVG file, given as bytes.
 #[pyfunction]
 pub(crate) fn _drawn_path(py: Python<'_>, contents: Vec<u8>, within: f64) -> Answer<Rows<2>> {
     let drawn = wait(py, move || DrawnPath::from_svg(&contents, within))??;

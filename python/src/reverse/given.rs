@@ -34,31 +34,34 @@ pub(super) enum Given {
     },
 }
 
-/// Makes a machine from the path required of its tip.
+/// Designs a machine whose tip follows a given path.
 ///
 /// Args:
-///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
-///         through them.
-///     axis: Axis of the carrier, mm; default: the gentlest, that of the minimum change of the gears' ratio.
-///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
-///         pair twice.
-///     axis_box: Two corners of the box in which the axis is searched, mm; default: the path's box with a quarter of its size round
-///         it. `findings` reports an axis at its border.
+///     path: Points in the order in which the tip passes them, mm, an array (N, 2). The path is the closed periodic cubic
+///         spline through them.
+///     axis: Axis of the carrier, mm; default: the axis for which the ratio of the gears is nearest to 1.
+///     split: "powers", two different pairs; "mildest", two different pairs with the minimum curvature of their pitch
+///         curves; or "one-pair", the same pair twice.
+///     axis_box: Two opposite corners of the box in which the axis is searched, mm; default: a box around the path with a
+///         margin of a quarter of its size. `findings` reports an axis at the border of the box.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
-///     control: Whether the points are the control points of a closed cubic B-spline, which need not pass them.
-///     band: Distance within which the path may pass its points, mm, one for all or an array (N,): it is eased there until its
-///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
-///     open: Whether the points are the working part alone: the return from the last to the first is searched, too.
-///     module: Module of full teeth, mm, for which it is eased, and no more.
-///     aim: What is made the most of where something is free: "module", the largest teeth, "mild", the ratio nearest to 1, or
-///         "small", the minimum reach of the tip; default: the largest teeth where the path is eased or something is wished, else
-///         the gentlest ratio.
-///     wishes: What else is required, with the keys of the table wishes of a design file of family path: carrier, arm,
-///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` shows how far they are reached.
+///     control: Whether the points are the control points of a closed cubic B-spline; the path need not pass through
+///         them.
+///     band: Maximum distance of the path from its points, mm, one value or an array (N,). The path is changed within it
+///         (eased) until the largest possible full teeth are sound. If no axis is given, the search begins with the axis
+///         that gives the gears of minimum curvature.
+///     open: Whether the points are only the working part of the path; the return from the last point to the first is
+///         searched.
+///     module: Module of full teeth at which easing stops, mm.
+///     aim: Objective of the search for what is free: "module", the largest teeth; "mild", the ratio nearest to 1; or
+///         "small", the minimum reach of the tip. Default: "module" if the path is eased or `wishes` are given, otherwise
+///         "mild".
+///     wishes: Other requirements, with the keys of the table wishes of a design file of family path: carrier, arm,
+///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` has their progress.
 ///
 /// Raises:
-///     DesignError: The points make no path, or a value breaks a rule of its own.
+///     DesignError: The points do not define a path, or a value is out of its range.
 ///     MechanismError: No machine with this axis, or with this split and bend, follows the path.
 ///
 /// >>> import centrode as ct
@@ -97,7 +100,7 @@ pub(crate) fn reverse(
         (true, true) => {
             return Err(Raised::sentence(
                 "control",
-                "it goes with a whole path, not with open".into(),
+                "it is possible only for a whole path, not with open".into(),
             ));
         }
         (true, false) => RequiredPath::knots(&points),
@@ -157,18 +160,19 @@ pub(crate) fn reverse(
     })?
 }
 
-/// Makes a machine whose arm takes key poses in order, the path between them free.
+/// Designs a machine whose arm passes through key poses in order; the path between them is free.
 ///
 /// Args:
 ///     poses: Three to seven points of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
-///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
-///         pair twice.
+///     split: "powers", two different pairs; "mildest", two different pairs with the minimum curvature of their pitch
+///         curves; or "one-pair", the same pair twice.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
 ///
 /// Raises:
-///     DesignError: The poses are no three to seven different ones, or a value breaks a rule of its own.
-///     MechanismError: No carrier and arm meet the poses in order; the message has the distance of the nearest.
+///     DesignError: There are not three to seven different poses, or a value is out of its range.
+///     MechanismError: No carrier and arm pass through the poses in order; the message states the distance of the nearest
+///         machine.
 ///
 /// >>> import centrode as ct
 /// >>> poses = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]

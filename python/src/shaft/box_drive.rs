@@ -13,9 +13,9 @@ use crate::error::{Answer, finite};
 use crate::mechanism::Mechanism;
 use crate::record;
 
-/// A machine whose grooved shaft moves a box out and back: `SpiralShaft` and `MovingBox`.
+/// A machine with a grooved shaft that moves a box out and back: `SpiralShaft` or `MovingBox`.
 ///
-/// `phi` is the angle of its input; a whole cycle out and back takes `cycle` radians.
+/// `phi` is the angle of its input. The whole cycle out and back takes `cycle` radians.
 #[pyclass(frozen, subclass, extends = Mechanism, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct BoxDrive(Arc<dyn Drive>);
@@ -92,13 +92,13 @@ impl BoxDrive {
 
 #[pymethods]
 impl BoxDrive {
-    /// Input turn of the whole cycle out and back, rad.
+    /// Input angle of the whole cycle out and back, rad.
     #[getter]
     fn cycle(&self) -> f64 {
         self.0.motion().period()
     }
 
-    /// Distance the box moves while a seedling is picked on a stroke, mm.
+    /// Distance by which the box moves during a stroke while a seedling is picked, mm.
     #[getter]
     fn moved_in_window(&self) -> f64 {
         self.0.moved_in_window()
@@ -129,7 +129,7 @@ impl BoxDrive {
         self.at(phi, |motion| motion.jerk)
     }
 
-    /// Distance a stroke moves the box from one input angle to another, mm, as if it had no end.
+    /// Distance by which a stroke moves the box from one input angle to another, mm, for a stroke without end.
     ///
     /// >>> import centrode as ct, math
     /// >>> machine = ct.MovingBox(speed_ratio=3)
@@ -139,8 +139,8 @@ impl BoxDrive {
         Ok(self.0.moved(finite("start", start)?, finite("stop", stop)?))
     }
 
-    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions replace the
-    /// design's. The torque is the shaft's.
+    /// Forces on the slider at the input angles `phi`. Input speed, mass and friction coefficients, if given, replace
+    /// those of the design. The torque is that of the shaft.
     ///
     /// >>> import centrode as ct
     /// >>> shaft = ct.SpiralShaft.for_moved_distance(2.05)

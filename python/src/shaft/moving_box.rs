@@ -17,18 +17,18 @@ use crate::word::Word;
 
 /// A seedling box that slows down while a seedling is picked: by its shaft's groove, by elliptic gears, or by both.
 ///
-/// `phi` is the angle of the machine's input: the shaft's where nothing drives it, else that of the driving
-/// gear. A whole cycle out and back takes `cycle` radians of either.
+/// `phi` is the angle of the input: the shaft, or the driving gear if gears drive the shaft. The whole cycle out and back
+/// takes `cycle` radians of it.
 ///
 /// Args:
-///     shaft: The shaft; the one of the design's defaults, which is plain, by default.
-///     scheme: "shaft", "elliptic-gear" or "both"; default: "shaft" without gears, "elliptic-gear" with gears
-///         before a plain shaft, "both" before another.
-///     eccentricity: Of the pitch ellipses.
-///     speed_ratio: Maximum speed of the shaft over its minimum, instead of the eccentricity.
-///     moved_distance: Distance a plain shaft must move the box in the window, mm, instead of both.
-///     module: Of the gears, mm.
-///     tooth_count: Of each gear.
+///     shaft: The shaft; default: a plain shaft with the default values of the design.
+///     scheme: "shaft", "elliptic-gear" or "both"; default: "shaft" without gears, "elliptic-gear" for gears with a plain
+///         shaft, "both" for gears with another shaft.
+///     eccentricity: Eccentricity of the pitch ellipses.
+///     speed_ratio: Maximum speed of the shaft divided by its minimum speed, instead of the eccentricity.
+///     moved_distance: Distance by which a plain shaft must move the box in the picking window, mm, instead of both.
+///     module: Module of the gears, mm.
+///     tooth_count: Tooth count of each gear.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
@@ -42,7 +42,8 @@ use crate::word::Word;
 /// >>> round(ct.MovingBox().moved_in_window, 3)  # a plain shaft
 /// 3.333
 ///
-/// The tables of its report hold the schemes next to a plain shaft, and the forces next to those by the paper's equations.
+/// The tables of its report compare the schemes with a plain shaft, and the forces with those by the equations of the
+/// paper.
 ///
 /// >>> report = ct.MovingBox(moved_distance=2.05).check()
 /// >>> table = report.tables[0]
@@ -98,7 +99,7 @@ impl MovingBox {
         Self::made(py, design)
     }
 
-    /// Scheme that slows the box down: "shaft", "elliptic-gear" or "both".
+    /// Scheme that slows down the box: "shaft", "elliptic-gear" or "both".
     #[getter]
     fn scheme(&self) -> &'static str {
         self.0.design().scheme.word()
@@ -116,7 +117,7 @@ impl MovingBox {
         self.0.drive().map(|drive| drive.eccentricity)
     }
 
-    /// The elliptic gears, cut; None without gears.
+    /// The pair of elliptic gears with finished teeth; None without gears.
     ///
     /// >>> import centrode as ct
     /// >>> ct.MovingBox(speed_ratio=3).gear_pair().check().ok
@@ -136,7 +137,7 @@ impl MovingBox {
         self.each(phi, |m, phi| m.shaft_turn(phi).position)
     }
 
-    /// Turn of the shaft per turn of the input.
+    /// Ratio of shaft speed to input speed.
     fn shaft_speed(&self, phi: Values) -> Course {
         self.each(phi, |m, phi| m.shaft_turn(phi).velocity)
     }

@@ -18,38 +18,38 @@ use crate::error::{Answer, Raised, plain_tolerance};
 use crate::keywords::{Call, fill};
 use crate::wait::wait;
 
-/// A variable-speed spiral shaft: the slider's law, the groove out and back, the forces on the slider.
+/// A spiral shaft of variable speed: the law of the slider, the groove out and back, and the forces on the slider.
 ///
-/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole cycle out and back takes
-/// `cycle` radians.
+/// The input is the angle of the shaft; it is 0 where the slider leaves the first hole. The whole cycle out and back
+/// takes `cycle` radians.
 ///
 /// Args:
-///     lead: Distance of neighbouring holes, mm a turn.
-///     holes: Holes across the box.
+///     lead: Lead, mm per turn: the distance between neighbouring holes.
+///     holes: Number of holes across the box.
 ///     radius: Radius of the shaft, mm.
 ///     amplitude: Amplitude of the sine, mm; 0 for a plain shaft.
-///     harmonic: Slow points per turn.
+///     harmonic: Number of slow points per turn.
 ///     phase: Shaft angle of a slow point, rad.
-///     rotated: Whether the sine is turned onto the helix, equations (3) to (5) of the paper of 2018, instead of
-///         being the integral of the speed.
-///     speed: Speeds over equal steps of a turn instead of a sine; only their ratios count.
-///     expression: A formula for the speed in `phi`, instead of a sine.
-///     moved_distance: Distance the box must move in the picking window, mm, by a sine that is slow where the first
-///         seedling is picked: its amplitude is solved.
-///     window: Shaft turn during which a seedling is picked, rad.
+///     rotated: Whether the sine is rotated onto the helix, equations (3) to (5) of Zhou et al. 2018; otherwise it is the
+///         integral of the speed.
+///     speed: Speeds at equal steps of a turn, instead of a sine; only their ratios matter.
+///     expression: Formula in `phi` for the speed, instead of a sine.
+///     moved_distance: Distance by which the box must move in the picking window, mm. The sine is slow where the first
+///         seedling is picked, and its amplitude is computed.
+///     window: Shaft angle during which a seedling is picked, rad.
 ///     pick: Shaft angle in the middle of the first picking, rad.
-///     pot_width: mm; the box may move by a sixth of it while a seedling is picked.
-///     reversal_angle: Shaft turn of one reversal, rad: whole half turns.
-///     reversal_law: How the speed changes sign: a motion law by its name, such as "harmonic" or "cycloidal".
-///     return_offset: How far the return groove runs next to the forward one, mm.
-///     groove_width: mm, along the normal on the surface.
-///     groove_depth: mm.
-///     slider_length: mm, over its round ends.
-///     slider_clearance: How much narrower than the groove the slider is, mm.
-///     speed_rpm: Speed of the shaft, turns a minute.
-///     mass: Mass moved, kg.
-///     groove_friction: Coefficient between slider and groove.
-///     rail_friction: Coefficient between box and rails.
+///     pot_width: Width of a pot, mm; the box may move by a sixth of it while a seedling is picked.
+///     reversal_angle: Shaft angle of one reversal, rad: a whole number of half turns.
+///     reversal_law: Law by which the speed changes sign: name of a motion law, such as "harmonic" or "cycloidal".
+///     return_offset: Distance of the return groove from the forward groove, mm.
+///     groove_width: Width of the groove along the normal on the surface, mm.
+///     groove_depth: Depth of the groove, mm.
+///     slider_length: Length of the slider over its round ends, mm.
+///     slider_clearance: Width of the groove minus that of the slider, mm.
+///     speed_rpm: Speed of the shaft, r/min.
+///     mass: Moved mass, kg.
+///     groove_friction: Coefficient of friction between slider and groove.
+///     rail_friction: Coefficient of friction between box and rails.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
@@ -130,7 +130,7 @@ impl SpiralShaft {
         Self::made(py, design)
     }
 
-    /// The shaft whose box moves `moved_distance` (mm) in the picking window: its amplitude is solved.
+    /// Makes the shaft whose box moves by `moved_distance` (mm) in the picking window; the amplitude is computed.
     ///
     /// >>> import centrode as ct
     /// >>> shaft = ct.SpiralShaft.for_moved_distance(2.05, lead=20)
@@ -150,13 +150,13 @@ impl SpiralShaft {
         cls.call((), Some(&keywords))
     }
 
-    /// Lead, mm a turn.
+    /// Lead, mm per turn.
     #[getter]
     fn lead(&self) -> f64 {
         self.0.law().lead()
     }
 
-    /// Shaft turn during which a seedling is picked, rad.
+    /// Shaft angle during which a seedling is picked, rad.
     #[getter]
     fn window(&self) -> f64 {
         self.0.design().window
@@ -174,7 +174,7 @@ impl SpiralShaft {
         self.0.amplitude()
     }
 
-    /// Minimum and maximum speed of the strokes over their mean.
+    /// Minimum and maximum speed of the strokes, divided by their mean speed.
     #[getter]
     fn speed_ratio(&self) -> (f64, f64) {
         self.0.speed_ratio()
@@ -190,9 +190,9 @@ impl SpiralShaft {
         self.each(theta, |s, t| s.groove().curvature(t))
     }
 
-    /// The developed groove: "center", "left" and "right" wall, each (N, 2), mm, not wrapped round.
+    /// The developed groove: "center" line, "left" wall and "right" wall, each (N, 2), mm, not wrapped round.
     ///
-    /// Along x the arc R theta, along y the position on the shaft; polylines within `tolerance` (mm).
+    /// x is the arc length R theta, y the position along the shaft. The polylines are within `tolerance` (mm).
     ///
     /// >>> import centrode as ct
     /// >>> developed = ct.SpiralShaft(amplitude=1.28).developed(0.01)
@@ -217,8 +217,8 @@ impl SpiralShaft {
         Ok(developed)
     }
 
-    /// Crossings of the groove with itself, (N, 4): shaft angle out, shaft angle back, position (mm), and the
-    /// length without walls (mm) a slider must bridge.
+    /// Crossings of the groove with itself, (N, 4): shaft angle out (rad), shaft angle back (rad), position (mm), and the
+    /// length without walls that the slider must bridge (mm).
     ///
     /// >>> import centrode as ct
     /// >>> crossings = ct.SpiralShaft.for_moved_distance(2.05).crossings()
@@ -232,7 +232,7 @@ impl SpiralShaft {
 
     /// The shaft as a closed triangle mesh: vertices (V, 3), mm, and faces (F, 3), counter-clockwise outside.
     ///
-    /// The shaft lies along z; z = 0 is where the slider is at the first hole.
+    /// The shaft is along z; z = 0 is the position of the slider at the first hole.
     #[pyo3(signature = (tolerance=1e-2))]
     fn mesh(&self, py: Python<'_>, tolerance: f64) -> Answer<MeshRows> {
         let tolerance = plain_tolerance(tolerance)?;

@@ -63,7 +63,7 @@ impl ThreeArm {
         Pitch::resolve(self.0.design().pitch.clone())
     }
 
-    /// Distance of the axes of two gears in mesh, mm.
+    /// Centre distance of two gears in mesh, mm.
     #[getter]
     fn center_distance(&self) -> f64 {
         self.0.center_distance()
@@ -75,7 +75,8 @@ impl ThreeArm {
         self.0.module()
     }
 
-    /// Planet reference angle `phi_30`: from the planet's zero to the chain's second leg at the start, rad.
+    /// Planet reference angle `phi_30`: angle at the start from the planet's zero direction to the second leg of the
+    /// chain, rad.
     #[getter]
     fn planet_reference(&self) -> f64 {
         self.0.train().planet_reference()
@@ -93,25 +94,26 @@ impl ThreeArm {
         self.0.ground()
     }
 
-    /// Speed of the carrier at the design's rate, rad/s.
+    /// Speed of the carrier at the planting rate of the design, rad/s.
     #[getter]
     fn carrier_speed(&self) -> f64 {
         self.0.carrier_speed()
     }
 
-    /// Carrier turn at which an arm picks, rad.
+    /// Carrier angle at which an arm picks, rad.
     #[pyo3(signature = (arm=0))]
     fn picking(&self, arm: i64) -> Answer<f64> {
         Ok(self.0.picking(self.arm(arm)?))
     }
 
-    /// Carrier turn at which an arm plants, rad.
+    /// Carrier angle at which an arm plants, rad.
     #[pyo3(signature = (arm=0))]
     fn planting(&self, arm: i64) -> Answer<f64> {
         Ok(self.0.planting(self.arm(arm)?))
     }
 
-    /// Tip of an arm at carrier turns (rad), (N, 2), mm: in the machine's frame, or over ground as the machine moves.
+    /// Tip of an arm at carrier angles (rad), (N, 2), mm: in the machine's frame, or over the ground while the machine
+    /// moves.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -123,13 +125,13 @@ impl ThreeArm {
         self.of_tip(theta, arm, over_ground, |m| m.position.coords.into())
     }
 
-    /// Velocity of an arm's tip, (N, 2), mm for a radian of carrier turn; times `carrier_speed` it is mm/s.
+    /// Velocity of an arm's tip, (N, 2), mm per radian of carrier angle; multiply by `carrier_speed` for mm/s.
     #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
     fn tip_velocity(&self, theta: Values, arm: i64, over_ground: bool) -> Answer<Course> {
         self.of_tip(theta, arm, over_ground, |m| m.velocity.into())
     }
 
-    /// Acceleration of an arm's tip, (N, 2), mm for a radian of carrier turn squared.
+    /// Acceleration of an arm's tip, (N, 2), mm per squared radian of carrier angle.
     #[pyo3(signature = (theta, arm=0))]
     fn tip_acceleration(&self, theta: Values, arm: i64) -> Answer<Course> {
         self.of_tip(theta, arm, false, |m| m.acceleration.into())
@@ -142,9 +144,9 @@ impl ThreeArm {
         Ok(self.each(theta, move |arms, theta| arms.clamp_elevation(theta, arm)))
     }
 
-    /// Pose of every link: by name x, y (mm) and turn (rad) of its frame, (N, 3).
+    /// Pose of every link, by its name: x, y (mm) and angle (rad) of its frame, (N, 3).
     ///
-    /// Gears have the frames of a gear pair's gears; an arm's x axis points as its clamp does.
+    /// Gears have the frames of the gears of a gear pair. The x axis of an arm has the direction of its clamp.
     ///
     /// >>> import centrode as ct
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -172,12 +174,12 @@ impl ThreeArm {
         Ok(poses)
     }
 
-    /// The cam of each arm, fixed to the carrier about the planet's axis.
+    /// The cam of each arm; it is fixed to the carrier, on the axis of the planet.
     ///
-    /// The cam angle is the turn the arm has made against the carrier since the start.
+    /// The cam angle is the rotation of the arm relative to the carrier since the start.
     ///
     /// Raises:
-    ///     MechanismError: Cam and fork cannot be.
+    ///     MechanismError: Cam and fork cannot be made.
     #[getter]
     fn cam(slf: &Bound<'_, Self>) -> Answer<DiscCam> {
         let pusher = slf.get().0.pusher()?;
@@ -188,7 +190,7 @@ impl ThreeArm {
     /// The fork of each arm, between cam and push rod.
     ///
     /// Raises:
-    ///     MechanismError: Cam and fork cannot be.
+    ///     MechanismError: Cam and fork cannot be made.
     ///
     /// >>> import centrode as ct
     /// >>> fork = ct.ThreeArm.from_toml(ct.template("three-arm")).fork
@@ -200,8 +202,8 @@ impl ThreeArm {
         Ok(Fork(pusher.fork().clone()))
     }
 
-    /// Contour that an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
-    /// polygon, counter-clockwise, nowhere farther than `tolerance` (mm) from the exact contour.
+    /// Contour of an arm for clearance checks, (N, 2), mm, in the frame of the arm in `pose`: corners of a closed
+    /// polygon, counter-clockwise. Its distance from the exact contour is at most `tolerance` (mm).
     ///
     /// Raises:
     ///     MechanismError: The arm's parts do not fit each other.
@@ -212,7 +214,8 @@ impl ThreeArm {
         Ok(Rows::new(&arm.outline().flatten(tolerance)))
     }
 
-    /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
+    /// Minimum clearance between the arms over a whole turn, proven between samples to within `tolerance` (mm); None for
+    /// one arm.
     ///
     /// Raises:
     ///     MechanismError: The arm's parts do not fit each other.
@@ -235,22 +238,24 @@ impl ThreeArm {
         Ok(found.transpose()?)
     }
 
-    /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
-    /// length of the pitch curves, by name; NaN where a variant is no mechanism, as with numbers that a design file may not
-    /// have. `centrode.sweep` spreads more of them over an executor.
+    /// Figures of many variants of this mechanism, by name: goals 2 to 4 and 6 to 8, centre distance and length of the
+    /// pitch curves.
+    ///
+    /// A variant takes about twenty microseconds. Figures are NaN if a variant is not a valid mechanism or has a number
+    /// that a design file does not allow. `centrode.sweep` distributes many variants over an executor.
     ///
     /// Args:
-    ///     parameters: Values by the parameter's name: "r1" to "r99" and "theta1" to "theta99" for radius and polar angle of a
-    ///         control point, "carrier_start", "bend", "mounting_angle", "tip_distance", "pusher_offset", "planet_reference",
-    ///         "picking", "planting"; arrays of one length, or single numbers; mm, degrees.
-    ///     inputs: Inputs a turn at which the tip's path is sampled before its extremes are sharpened.
+    ///     parameters: Values by the name of the parameter: "r1" to "r99" and "theta1" to "theta99" for radius and polar
+    ///         angle of a control point, "carrier_start", "bend", "mounting_angle", "tip_distance", "pusher_offset",
+    ///         "planet_reference", "picking", "planting"; arrays of one length, or single numbers; mm, degrees.
+    ///     inputs: Inputs per turn at which the path of the tip is sampled before its extremes are refined.
     ///
     /// Returns:
     ///     Arrays by name, angles in radians: "pick-angle", "push-angle", "angle-difference", "gearbox-clearance",
     ///     "trajectory-height", "module", "center_distance", "pitch_length".
     ///
     /// Raises:
-    ///     DesignError: No such parameter, or the sun is no B-spline in the polar plane.
+    ///     DesignError: There is no such parameter, or the sun is not a B-spline in the polar plane.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -266,19 +271,19 @@ impl ThreeArm {
         variants::sweep(py, self.0.design(), parameters, inputs)
     }
 
-    /// Sun and intermediate gear with their teeth; the planets are the sun's part again.
+    /// Sun and intermediate gear with their teeth; the planets are equal to the sun.
     ///
     /// Raises:
-    ///     GearPairError: No teeth can be laid out or cut, or the tooth count is missing.
+    ///     GearPairError: The teeth cannot be cut, or the tooth count is missing.
     fn gear_pair(&self, py: Python<'_>) -> Answer<Py<GearPair>> {
         let arms = Arc::clone(&self.0);
         GearPair::object(py, wait(py, move || arms.pair())??)
     }
 
-    /// How far an arm's push rod is drawn back at carrier turns (rad), mm: 0 thrown out.
+    /// Retraction of an arm's push rod at carrier angles (rad), mm; 0: fully extended.
     ///
     /// Raises:
-    ///     MechanismError: Cam and fork cannot be.
+    ///     MechanismError: Cam and fork cannot be made.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))

@@ -13,38 +13,39 @@ use crate::design::Class;
 use crate::error::Answer;
 use crate::mechanism::Mechanism;
 
-/// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
+/// A three-arm transplanting mechanism: a fixed sun, a turning carrier, and arms on the planets of bent gear chains.
 ///
-/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive in the direction in which it turns. Every
-/// arm does what the first does, later by its share of a turn; arms are counted from 0.
+/// The origin is the axis of the carrier; theta is the carrier angle from its start, positive in its direction of
+/// rotation. Every arm has the motion of the first, delayed by its share of a turn. Arms are counted from 0.
 ///
 /// Args:
-///     pitch: Pitch curve of the sun; the planets are equal, the intermediate gears follow.
+///     pitch: Pitch curve of the sun; the planets have the same curve, and that of the intermediate gears follows from
+///         it.
 ///     carrier_start: Direction of the first intermediate gear's axis from the sun's at the start, rad.
-///     bend: From the leg sun - intermediate to the leg intermediate - planet, rad.
-///     arm_mounting_angle: Direction of the tip from the planet's zero, rad.
-///     tip_distance: Of the tip from the planet's axis, mm.
+///     bend: Angle from the leg sun - intermediate to the leg intermediate - planet, rad.
+///     arm_mounting_angle: Angle from the planet's zero direction to the tip, rad.
+///     tip_distance: Distance of the tip from the planet's axis, mm.
 ///     pusher_offset: Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm.
-///     planet_reference: Angle from the planet's zero to the second leg at the start, rad; default: the intermediate's turn
-///         over the first abs(bend) of carrier turn.
-///     arms: 1 to 6.
-///     direction: "clockwise" or "counter-clockwise".
-///     tooth_count: Of every gear; default: there are no teeth to judge.
-///     center_distance: mm; it follows from the pitch curve, and is checked if given.
-///     picking: Carrier turn at which the first arm picks, rad; default: where its tip enters the tray, or reaches
+///     planet_reference: Angle from the planet's zero direction to the second leg at the start, rad; default: the
+///         rotation of the intermediate gear over the first abs(bend) of the carrier angle.
+///     arms: Number of arms, 1 to 6.
+///     direction: Rotation of the carrier, "clockwise" or "counter-clockwise".
+///     tooth_count: Tooth count of every gear; default: none, and the teeth are not checked.
+///     center_distance: Centre distance, mm; it follows from the pitch curve, and is checked if given.
+///     picking: Carrier angle at which the first arm picks, rad; default: where its tip enters the tray, or reaches
 ///         farthest towards it.
-///     planting: Carrier turn at which the first arm plants, rad; default: where its tip is lowest.
-///     rate_per_minute: Seedlings planted.
+///     planting: Carrier angle at which the first arm plants, rad; default: where its tip is lowest.
+///     rate_per_minute: Seedlings planted per minute.
 ///     plant_spacing: Distance of the plants along the row, mm.
-///     planting_depth: Of the lowest tip below the ground, mm.
-///     tray_distance: Of the tray's surface from the carrier's axis, mm.
+///     planting_depth: Depth of the lowest tip position below the ground, mm.
+///     tray_distance: Distance of the tray's surface from the carrier's axis, mm.
 ///     tray_inclination: Elevation of the direction in which the arms enter the tray, rad.
-///     seedling_height: Up to which a planted stem must not be pushed, mm.
-///     seedling_width: Of a planted stem, mm.
-///     clamp_length: Back from the tip, mm: what passes between seedlings.
-///     housing_offset: Of the gearbox from the largest pitch radius, mm.
-///     tool: What cuts the gears; the rack of ISO 53, profile A, by default.
-///     shift: Profile shift coefficient of sun and planets, in modules; the intermediate gears have the opposite one.
+///     seedling_height: Height up to which a planted stem must not be pushed, mm.
+///     seedling_width: Width of a planted stem, mm.
+///     clamp_length: Length of the clamp back from the tip, mm: the part that passes between seedlings.
+///     housing_offset: Distance of the outside of the gearbox from the largest pitch radius, mm.
+///     tool: Tool that cuts the gears; default: the rack of ISO 53, profile A.
+///     shift: Profile shift coefficient of sun and planets, in modules; that of the intermediate gears is its negative.
 ///     addendum: "full" or "fitted".
 ///     backlash: Backlash of each mesh along the normal, mm.
 ///     sun: Body of the sun.
@@ -54,7 +55,7 @@ use crate::mechanism::Mechanism;
 ///     title: One line for drawings and reports.
 ///
 /// Raises:
-///     DesignError: A value breaks a rule; PitchError, GearPairError and MechanismError where it cannot exist.
+///     DesignError: A value breaks a rule; PitchError, GearPairError or MechanismError if the mechanism cannot exist.
 ///
 /// >>> import centrode as ct, math
 /// >>> pitch = ct.pitch.bspline(

@@ -72,7 +72,7 @@ fn count(parameters: &BTreeMap<String, Values>) -> PyResult<usize> {
             (None, _) => {}
             (Some(length), Some((other, first))) if length != other => {
                 return Err(PyValueError::new_err(format!(
-                    "{name} has {length} values and {first} {other}"
+                    "{name} has {length} values, but {first} has {other}"
                 )));
             }
             (Some(length), _) => count = Some((length, name)),
@@ -81,7 +81,7 @@ fn count(parameters: &BTreeMap<String, Values>) -> PyResult<usize> {
     let count = count.map_or(1, |(count, _)| count);
     if count > MOST {
         return Err(PyValueError::new_err(format!(
-            "{count} variants at once are too many; at most {MOST}"
+            "{count} variants are too many for one call; the limit is {MOST}"
         )));
     }
     Ok(count)

@@ -39,7 +39,9 @@ pub enum MjcfError {
         link: String,
     },
     /// A link is not connected to the first one by exactly one chain of joints.
-    #[error("link {link:?} is joined to the first link by {ways} chains of joints, not by one")]
+    #[error(
+        "link {link:?} must be connected to the first link by one chain of joints, not by {ways}"
+    )]
     Tree {
         /// The link.
         link: String,
@@ -47,7 +49,7 @@ pub enum MjcfError {
         ways: usize,
     },
     /// A link that moves has no mass.
-    #[error("link {link:?} moves and has no mass")]
+    #[error("link {link:?} moves but has no mass")]
     Massless {
         /// The link.
         link: String,

@@ -55,7 +55,7 @@ pub struct Sheet {
 #[non_exhaustive]
 pub enum SheetError {
     /// The views do not fit, not even at the smallest scale.
-    #[error("the views with their dimensions do not fit on {}: at scale {scale} they still take {:.0} x {:.0} mm of {:.0} x {:.0} mm", size.name(), needed[0], needed[1], room[0], room[1])]
+    #[error("the views with their dimensions do not fit on {}: at scale {scale} they still need {:.0} x {:.0} mm, and {:.0} x {:.0} mm is available", size.name(), needed[0], needed[1], room[0], room[1])]
     Views {
         /// The requested sheet.
         size: SheetSize,

@@ -125,7 +125,7 @@ fn what_cannot_fit_is_refused_with_its_size() {
     assert!(
         error
             .to_string()
-            .contains("do not fit on A4: at scale 1:10000 they still take"),
+            .contains("do not fit on A4: at scale 1:10000 they still need"),
         "{error}"
     );
     let mut wide = long_table(5);

@@ -31,7 +31,7 @@ pub enum StepError {
         vertex: usize,
     },
     /// A shell with a gap.
-    #[error("the faces do not close: an edge is not between two of them")]
+    #[error("the faces do not form a closed body: an edge does not belong to two faces")]
     Open,
     /// A contour that encloses nothing a CAD kernel can distinguish from a point or a line.
     #[error("contour {contour} (0 is the outer one) encloses no area")]

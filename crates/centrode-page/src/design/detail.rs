@@ -58,7 +58,10 @@ impl LeftOut {
     /// Reason and consequence in words.
     pub fn message(&self) -> String {
         let keys = self.keys.join(", ");
-        format!("{}; what is shown is without {keys}", self.error.message())
+        format!(
+            "{}; the figures and drawings are without {keys}",
+            self.error.message()
+        )
     }
 
     /// Adds the finding of the details to a report, before all others.

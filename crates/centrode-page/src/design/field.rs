@@ -225,7 +225,7 @@ fn add(
         let value = shown.get(tag).cloned().unwrap_or_default();
         fields.push(Field {
             key: path(tag),
-            doc: "What kind it is".into(),
+            doc: "Kind".into(),
             symbol: None,
             unit: "",
             kind: Kind::Choice,

@@ -159,7 +159,7 @@ impl Snapshot {
                 key: String::new(),
                 line: 0,
                 column: 0,
-                message: "cancelled; the next change solves it anew".into(),
+                message: "cancelled; the next change starts a new calculation".into(),
                 rule: String::new(),
             }),
             ..Self::of(text)

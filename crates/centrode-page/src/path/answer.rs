@@ -188,10 +188,7 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
     let at = format!("{:.4}, {:.4} mm", axis.x, axis.y);
     let mut found = vec![figure("axis of the carrier", at)];
     found.extend(words::bars(chain).map(|(name, words)| figure(name, words)));
-    found.push(figure(
-        "tip passes the shaft at",
-        mm(chain.shaft_distance()),
-    ));
+    found.push(figure("tip to shaft, minimum", mm(chain.shaft_distance())));
     if let Some(bend) = bend {
         let module = Limits::largest_full_module(chain.curvatures(bend));
         let full = format!("guaranteed up to module {} by powers", mm(module));
@@ -213,7 +210,7 @@ fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figu
     found.push(figure(name, words));
     if split.kind() == SplitKind::OnePair {
         found.push(figure(
-            "one pair twice misses by",
+            "one pair twice: residual",
             format!("{:.1e} rad", split.miss()),
         ));
     }

@@ -46,7 +46,7 @@ impl Field {
         let required = path(&ask.points).map_err(|error| error.to_string())?;
         if !(2..=MOST).contains(&ask.count) {
             return Err(format!(
-                "a map has 2 to {MOST} axes a side, not {}",
+                "a map must have 2 to {MOST} axes per side, not {}",
                 ask.count
             ));
         }
@@ -105,13 +105,15 @@ fn short(value: f64) -> f64 {
 /// A reason in words that fit any axis.
 fn words(name: &str) -> &'static str {
     match name {
-        "extremes" => "the distance along the path has several maxima and minima",
+        "extremes" => "the distance of the path from this axis has several maxima and minima",
         "circle" => "the path is a circle about the axis",
         "on-axis" => "the path passes through the axis",
         "winding" => "the path goes round the axis more than once",
         "carrier-turns-back" => "the carrier would turn back",
         "arm-stops" => "the arm would stop on the carrier",
-        "too-far" => "the axis is more than 1000 times the size of the path away from it",
+        "too-far" => {
+            "the distance of the axis from the path is more than 1000 times the size of the path"
+        }
         _ => "the axis is not possible for this path",
     }
 }

@@ -68,7 +68,7 @@ fn without_teeth(error: &NoSoundTeeth) -> String {
         NoSoundTeeth::None { pair, full_module } => {
             let module = Unit::Millimetre.with_unit(*full_module);
             format!(
-                "No teeth of pair {pair} carry the motion by their flanks alone: full ones are undercut above a module of {module}, and no fitted ones will do."
+                "No teeth of pair {pair} transmit the motion by their flanks alone: full teeth are undercut above a module of {module}, and no fitted teeth work either."
             )
         }
         error => error.to_string(),

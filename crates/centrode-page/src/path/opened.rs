@@ -31,10 +31,12 @@ pub fn opened(text: &str) -> Result<Opened, String> {
         return Err(format!("point {} is not a finite number", i + 1));
     }
     match count {
-        0..3 => Err(format!("the path has {count} points; it takes at least 3")),
+        0..3 => Err(format!(
+            "the path has {count} points; it must have at least 3"
+        )),
         3..=MOST => Ok(opened),
         _ => Err(format!(
-            "the path has {count} points; the page shows up to {MOST}: take fewer, or use centrode reverse"
+            "the path has {count} points; the page shows up to {MOST}: use fewer points, or the command centrode reverse"
         )),
     }
 }
@@ -46,7 +48,7 @@ fn read(text: &str) -> Result<Opened, String> {
         let design = PathDesign::from_toml(text).map_err(|error| error.to_string())?;
         if let Some(file) = &design.path.file {
             return Err(format!(
-                "its points are in another file, {file}: open that, or write them at path.points"
+                "its points are in another file, {file}: open that file, or write the points at path.points"
             ));
         }
         let note = format!("{} points, with all requirements", design.path.points.len());

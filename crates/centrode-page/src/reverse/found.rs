@@ -113,8 +113,8 @@ impl Found {
         Ok(Self {
             why: match (axis, design.aim.unwrap_or_default()) {
                 (Some(_), _) => "as given",
-                (None, Aim::Module) => "with the bluntest gears found",
-                (None, Aim::Mild) => "the gentlest found",
+                (None, Aim::Module) => "with the largest full-height teeth found",
+                (None, Aim::Mild) => "gentlest ratio found",
                 (None, Aim::Small) => "with the minimum reach found",
             }
             .into(),
@@ -153,7 +153,7 @@ impl Found {
         Ok(Self {
             findings: axis_at_border(chain.axis(), &room).into_iter().collect(),
             chain,
-            why: "the gentlest found".into(),
+            why: "gentlest ratio found".into(),
             map: Some(map),
             stated: Vec::new(),
             goals: Vec::new(),
@@ -171,7 +171,7 @@ impl Found {
             stated: words::poses(found.clamp, &found.misses),
             chain: found.chain,
             why: format!(
-                "the gentlest found from {} starts that meet the poses in order",
+                "gentlest ratio found, from {} starts that meet the poses in order",
                 found.possible
             ),
             map: None,
@@ -203,7 +203,7 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<La
     let required = match module {
         Some(module) if borne < module => {
             format!(
-                ", not {}: give more room, or take another axis or bend",
+                ", not {}: use a larger band, another axis or another bend",
                 mm(module)
             )
         }

@@ -54,8 +54,8 @@ pub fn minimum_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
 /// Line on the distance of the tip from the path.
 pub fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
     let error = mm(made.tip_error.value);
-    let words = format!("{error} at most, with laws of {} steps", made.steps);
-    ("tip off the path", words)
+    let words = format!("at most {error}, with laws of {} steps", made.steps);
+    ("error of the tip", words)
 }
 
 /// Line on the clamp.
@@ -121,7 +121,7 @@ pub fn goal(goal: &Goal) -> Labelled {
 pub fn finding(finding: &Finding) -> Labelled {
     let remedy = finding
         .remedy
-        .map_or_else(String::new, |remedy| format!("; what helps: {remedy}"));
+        .map_or_else(String::new, |remedy| format!("; remedy: {remedy}"));
     (
         finding.rule.to_owned(),
         format!("{}{remedy}", finding.message),
@@ -134,7 +134,10 @@ pub fn teeth(teeth: &SoundTeeth) -> Labelled {
     let (kind, full) = match teeth.addendum {
         Addendum::Full => ("full", String::new()),
         Addendum::Fitted => {
-            let words = format!("; full ones are undercut above {}", mm(teeth.full_module));
+            let words = format!(
+                "; full teeth are undercut above module {}",
+                mm(teeth.full_module)
+            );
             ("fitted", words)
         }
     };

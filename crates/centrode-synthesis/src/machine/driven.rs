@@ -58,7 +58,7 @@ pub enum GearDriveError {
     Machine(#[from] Box<MachineError>),
     /// A body that is no crank on the frame.
     #[error(
-        "{body} {why}: a crank turns on a point of the frame with law = {{ ratio = 1 }} or -1, and start_deg where it has one"
+        "{body} {why}: the crank must turn on a point of the frame with law = {{ ratio = 1 }} or -1, and optionally start_deg"
     )]
     NoCrank {
         /// The body named.
@@ -68,7 +68,7 @@ pub enum GearDriveError {
     },
     /// Another body moves by the input.
     #[error(
-        "bodies.{body}.law moves {body} by the input, too: the crank alone may do so, or the output depends on both"
+        "bodies.{body}.law also moves {body} by the input: only the crank may do so, otherwise the output depends on both"
     )]
     Another {
         /// The other body.
@@ -76,11 +76,11 @@ pub enum GearDriveError {
     },
     /// No goal says what is required.
     #[error(
-        "no goal defines the output: give one over = \"deviation\" with uniform, or one over = \"span\" with maximum for a rest, both with within_deg"
+        "no goal defines the output: give a goal with over = \"deviation\", uniform and within_deg, or, for a rest, a goal with over = \"span\", maximum and within_deg"
     )]
     Nothing,
     /// Goals of several figures, or one that is no position or angle.
-    #[error("goals.{goal} is of {figure}: {why}")]
+    #[error("goals.{goal} has figure {figure}: {why}")]
     Figure {
         /// The goal.
         goal: String,
@@ -90,13 +90,13 @@ pub enum GearDriveError {
         why: String,
     },
     /// A name that the drive needs is already used.
-    #[error("{key} is there already, and the drive takes this name")]
+    #[error("{key} exists already, but the drive needs this name: rename it")]
     Taken {
         /// Its key.
         key: String,
     },
     /// A period of several turns.
-    #[error("input.turns is {turns}: a machine with such a drive repeats after 1 turn")]
+    #[error("input.turns must be 1, not {turns}: a machine with such a drive repeats after 1 turn")]
     Turns {
         /// Turns given.
         turns: u32,

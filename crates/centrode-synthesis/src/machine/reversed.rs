@@ -55,7 +55,7 @@ pub struct ReversedMachine {
 #[non_exhaustive]
 pub enum ReversedMachineError {
     /// A number of arms outside its range.
-    #[error("a machine has 1 to {maximum} arms, not {arms}")]
+    #[error("a machine must have 1 to {maximum} arms, not {arms}")]
     Arms {
         /// Number given.
         arms: u32,
@@ -63,7 +63,7 @@ pub enum ReversedMachineError {
         maximum: u32,
     },
     /// A number of steps outside its range.
-    #[error("the tables of the laws have {minimum} to {maximum} steps, not {steps}")]
+    #[error("the tables of the laws must have {minimum} to {maximum} steps, not {steps}")]
     Steps {
         /// Number given.
         steps: u32,

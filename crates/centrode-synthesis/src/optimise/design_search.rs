@@ -127,7 +127,7 @@ impl DesignSearch {
         }
     }
 
-    /// Searches until the search is at its end, the evaluations are used up or `observe` breaks off; the best found is kept in
+    /// Searches until the search is at its end, maximum number of evaluations reached or `observe` breaks off; the best found is kept in
     /// every case.
     pub fn run(
         &mut self,

@@ -49,13 +49,13 @@ impl fmt::Display for GuidedStep {
         let [before, after] = self.miss;
         write!(
             out,
-            ": missed by {before:.4} -> {after:.4} of its scale, the most of {} that help; ",
+            ": miss {before:.4} -> {after:.4} of its scale, the best of {} parameters that help; ",
             self.helpful
         )?;
         match self.others {
-            others if others.abs() < 5e-5 => write!(out, "the others stay"),
-            others if others > 0.0 => write!(out, "the others lose {others:.4}"),
-            others => write!(out, "the others gain {:.4}", -others),
+            others if others.abs() < 5e-5 => write!(out, "the other goals do not change"),
+            others if others > 0.0 => write!(out, "the other goals lose {others:.4}"),
+            others => write!(out, "the other goals gain {:.4}", -others),
         }
     }
 }
@@ -86,7 +86,7 @@ pub struct GuidedSearch {
 /// Position in a guided search at which it can break off.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 struct UnderWay {
-    /// Index of the current goal; the number of goals if no step helps any more.
+    /// Index of the current goal; the number of goals if no further step improves the design.
     goal: usize,
     /// Step tried next for it, as a share of the bounds.
     step: f64,
@@ -188,7 +188,7 @@ impl GuidedSearch {
         }
     }
 
-    /// Makes steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off. The
+    /// Makes steps until every goal is met, no further step improves the design, maximum number of evaluations reached, or `observe` breaks off. The
     /// next run goes on as if there had been no break.
     pub fn run(
         &mut self,

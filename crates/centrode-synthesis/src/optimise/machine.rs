@@ -37,7 +37,7 @@ impl MachineProblem {
         }
         if design.vary.is_empty() {
             return Err(no(
-                "nothing may vary: add a table [vary] of keys and bounds".into(),
+                "no number may change: add a table [vary] with keys and bounds".into(),
             ));
         }
         let (mut variables, mut start) = (Vec::new(), Vec::new());

@@ -12,7 +12,7 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{DesignSpec, SpecError, degrees};
 
-/// A path required of a tip, and what else is required of the machine.
+/// A path required of a tip, and other requirements for the machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathDesign {
@@ -22,28 +22,29 @@ pub struct PathDesign {
     /// One line for drawings and reports.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Axis of the carrier, mm; by default it is searched.
+    /// Axis of the carrier, mm; default: searched.
     pub axis: Option<[f64; 2]>,
-    /// Two corners of the box in which it is searched, mm; default: the path's box with a quarter of its size round it.
+    /// Two opposite corners of the box in which the axis is searched, mm; default: a box around the path with a margin of a
+    /// quarter of its size.
     pub axis_box: Option<[[f64; 2]; 2]>,
     /// Angle from the carrier's first leg, to the intermediate gear, to its second, rad (degrees in the file).
     #[serde(default = "default_bend", rename = "bend_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub bend: f64,
-    /// How two stages of gears share the motion.
+    /// How the two gear stages share the motion.
     #[serde(default)]
     pub split: SplitKind,
     /// Number of arms.
     #[serde(default = "one")]
     pub arms: u32,
-    /// Steps of the tables in which the laws are written; default: as few as do.
+    /// Number of steps of the tables for the laws; default: the minimum for the required accuracy of the tip.
     pub steps: Option<u32>,
-    /// Figure that is made the most of where something is free; default: the largest teeth where the path is eased or something
-    /// is wished, else the gentlest ratio.
+    /// Objective of the search for what is free; default: the largest teeth if the path is eased or there are wishes, otherwise
+    /// the ratio nearest to 1.
     pub aim: Option<Aim>,
     /// The path.
     pub path: PathSpec,
-    /// Further wishes.
+    /// Other requirements.
     #[serde(default, skip_serializing_if = "Wishes::is_free")]
     pub wishes: Wishes,
 }
@@ -55,36 +56,36 @@ pub struct PathSpec {
     /// Points in the order in which the tip passes them, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 2]>,
-    /// CSV or SVG file that holds them instead, next to the design file.
+    /// CSV or SVG file that contains the points instead; it must be next to the design file.
     pub file: Option<String>,
-    /// Whether they are the control points of a closed cubic B-spline, which need not pass them.
+    /// Whether the points are the control points of a closed cubic B-spline; the path need not pass through them.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub control: bool,
-    /// Distance within which the path may pass each point, mm: it is eased there.
+    /// Maximum distance of the path from each point, mm: the path is eased within it, so that its gears become less curved.
     pub band: Option<f64>,
-    /// Such a distance for each point, mm.
+    /// Maximum distance of the path from each point, mm, one value per point.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tolerance: Vec<f64>,
-    /// Whether the points are the working part alone, and the return is searched.
+    /// Whether the points are only the working part of the path, and the return is searched.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub open: bool,
     /// Whether the path may cross itself.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub crossing: bool,
-    /// Module of full teeth up to which it is eased, and no more, mm.
+    /// Module of full teeth at which easing stops, mm.
     pub module: Option<f64>,
 }
 
-/// Figure that a search for a machine makes the most of.
+/// Objective of a search for a machine.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Aim {
-    /// The largest module with which full teeth are surely sound.
+    /// The largest module with which full teeth are guaranteed to be sound.
     #[default]
     Module,
     /// The ratio nearest to 1.
     Mild,
-    /// The minimum distance that the tip goes from the carrier's axis.
+    /// The minimum reach of the tip from the carrier's axis.
     Small,
 }
 
@@ -108,7 +109,7 @@ fn one() -> u32 {
 
 impl DesignSpec for PathDesign {
     const FAMILY: &'static str = "path";
-    const ABOUT: &'static str = "The path of a tip, and the requirements for the machine that centrode reverse makes of it.";
+    const ABOUT: &'static str = "The path of a tip, and the requirements for the machine that centrode reverse designs for it.";
     const TEMPLATE: &'static str = include_str!("../../design/path.toml");
     const TABLES: &'static [&'static str] = &["path", "wishes"];
 

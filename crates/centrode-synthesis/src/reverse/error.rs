@@ -60,7 +60,7 @@ pub enum PathError {
         limit: usize,
     },
     /// Two neighbouring points coincide.
-    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = stated(*x), y = stated(*y))]
+    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: omit one of them", x = stated(*x), y = stated(*y))]
     Twice {
         /// Number of the first, from one.
         first: usize,
@@ -104,7 +104,7 @@ pub enum PathError {
         line: usize,
     },
     /// A tolerance that is negative or not finite.
-    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", stated(*value))]
+    #[error("line {line}: the tolerance of a point must be zero or more, in mm, not {}", stated(*value))]
     Tolerance {
         /// Line, from one.
         line: usize,
@@ -113,7 +113,7 @@ pub enum PathError {
     },
     /// A line that holds no point.
     #[error(
-        "line {line}: {found:?} is no number; a line holds x and y in mm, separated by a comma"
+        "line {line}: {found:?} is not a number; a line must contain x and y in mm, separated by a comma"
     )]
     NotNumber {
         /// Line, from one.
@@ -133,7 +133,7 @@ pub enum PathError {
     },
     /// A line of too few values, or of values in columns without a heading.
     #[error(
-        "line {line} has {count} values; it must hold {required}, separated by a comma, and further columns need a heading"
+        "line {line} has {count} values; it must contain {required}, separated by commas; other columns need a heading"
     )]
     Columns {
         /// Line, from one.
@@ -179,14 +179,16 @@ pub enum AxisFault {
     },
     /// The path is a circle about the axis.
     #[error(
-        "the distance from the axis is {distance:.6} mm all along the path: one arm on the axis would do, and no two bars follow from it"
+        "the distance from the axis is {distance:.6} mm along the whole path: one arm on the axis would be enough, so the two bars cannot be determined"
     )]
     Circle {
         /// The distance, mm.
         distance: f64,
     },
     /// The path passes through the axis.
-    #[error("the path passes the axis at {distance:.6} mm: the tip would run into the shaft")]
+    #[error(
+        "the distance of the path from the axis is only {distance:.6} mm: the tip would hit the shaft"
+    )]
     OnAxis {
         /// Minimum distance, mm.
         distance: f64,
@@ -201,7 +203,7 @@ pub enum AxisFault {
     },
     /// An axis inside the path allows one sense only.
     #[error(
-        "with the axis inside the path the carrier turns as the path is run through, {sense}: the other sense needs an axis outside"
+        "with the axis inside the path, the carrier turns in the direction of the path, {sense}: the other direction needs an axis outside"
     )]
     Sense {
         /// The sense that is possible, in words.
@@ -209,7 +211,7 @@ pub enum AxisFault {
     },
     /// The carrier would turn back.
     #[error(
-        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run in one direction",
+        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: it must turn in one direction only",
         at.x,
         at.y
     )]

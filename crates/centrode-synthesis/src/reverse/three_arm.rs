@@ -15,7 +15,7 @@ use centrode_spec::degrees;
 pub enum NotPosed {
     /// A clamp that points back at the planet's axis.
     #[error(
-        "the clamp is {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg in either direction: give other poses"
+        "the clamp is {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg in either direction: change the poses"
     )]
     Clamp {
         /// Angle found, degrees.
@@ -23,7 +23,7 @@ pub enum NotPosed {
     },
     /// No law of one pair twice.
     #[error(
-        "no law of one pair twice brings the arm through the poses with a bend of {bend:.3} deg: take another bend"
+        "with a bend of {bend:.3} deg, no law of the same pair twice moves the arm through the poses: use another bend"
     )]
     Law {
         /// Bend, degrees.

@@ -16,7 +16,7 @@ const FARTHEST: f64 = 1e6;
 /// Maximum number of directions that may be required along a path.
 const MAX_DIRECTIONS: usize = 200;
 
-/// Wishes about a machine besides the path of its tip.
+/// Requirements for a machine other than the path of its tip.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Wishes {
@@ -32,7 +32,7 @@ pub struct Wishes {
     /// Ratio of planet to carrier.
     #[serde(skip_serializing_if = "RequiredRange::is_free")]
     pub ratio: RequiredRange,
-    /// Direction of the clamp less that of the arm, rad (degrees in the file); default: the one that suits the directions best.
+    /// Angle from the arm to the clamp, rad (degrees in the file); default: the angle that fits the required directions best.
     #[serde(
         rename = "clamp_deg",
         with = "degrees",
@@ -73,7 +73,7 @@ pub struct RequiredDirection {
     #[serde(rename = "direction_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub direction: f64,
-    /// How far off it may be, rad (degrees in the file).
+    /// Tolerance of the direction, rad (degrees in the file).
     #[serde(
         default = "RequiredDirection::usual_tolerance",
         rename = "tolerance_deg",
@@ -87,9 +87,9 @@ pub struct RequiredDirection {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RequiredTurn {
-    /// Number of the point from which it is counted, from one.
+    /// Number of the point at which the turn begins, counted from one.
     pub from: usize,
-    /// Number of the point up to which it is counted.
+    /// Number of the point at which the turn ends.
     pub to: usize,
     /// Minimum and maximum turn, rad (degrees in the file).
     #[serde(rename = "between_deg", with = "degrees")]
@@ -107,13 +107,13 @@ pub struct KeepOut {
     /// Centre of a circle, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 2]>,
-    /// Its radius, mm.
+    /// Radius of the circle, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Height of the ground, which fills all below it: its y, mm.
+    /// Height of the ground (y), mm; the ground fills everything below it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub below: Option<f64>,
-    /// Minimum distance from it, mm.
+    /// Minimum distance from the shape, mm.
     #[serde(skip_serializing_if = "is_zero")]
     pub clearance: f64,
 }
@@ -218,7 +218,7 @@ impl Wishes {
             part_name(&key, name)?;
             let is_body = |body: &&str| name.split('-').next() == Some(*body);
             if name == "frame" || KeepOut::BODIES.iter().any(is_body) {
-                return broken(&key, Rule::Excludes("a body of that name"));
+                return broken(&key, Rule::Excludes("a body of the same name"));
             }
             shape.validate().map_err(|e| e.inside(&key))
         })
@@ -254,14 +254,17 @@ impl KeepOut {
             return in_range("radius", radius, [f64::MIN_POSITIVE, FARTHEST], " mm");
         }
         if !self.corners.is_empty() && self.corners.len() < 3 {
-            return broken("corners", Rule::Needed("as three or more"));
+            return broken("corners", Rule::Needed("with three corners or more"));
         }
         for x in self.corners.iter().flatten() {
             in_range("corners", *x, [-FARTHEST, FARTHEST], " mm")?;
         }
         let corners: Vec<Point> = self.corners.iter().map(|c| Point::from(*c)).collect();
         if !corners.is_empty() && Outline::polygon(&corners).crossing().is_some() {
-            return broken("corners", Rule::Needed("in order: two of its sides cross"));
+            return broken(
+                "corners",
+                Rule::Needed("in order round the shape: two of its sides cross"),
+            );
         }
         Ok(())
     }

@@ -25,7 +25,7 @@ const FINEST: f64 = 1e-7;
 #[command(
     name = "centrode",
     version,
-    after_help = "Exit status: 0 good; 1 a finding of severity error; 2 no mechanism, a bad design file or bad usage."
+    after_help = "Exit status: 0 success; 1 a finding of severity error; 2 impossible mechanism, invalid design file or wrong usage."
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// List what a design can start from, or print one as a commented file to edit
+    /// List the families and shipped designs, or print one as a commented design file
     New(New),
     /// Resolve a design and report its figures and findings
     Check(Check),
@@ -44,17 +44,17 @@ pub(crate) enum Command {
     Optimise(Optimise),
     /// Vary one parameter and print the results
     Response(Response),
-    /// Make a machine from the path required of its tip
+    /// Design a machine whose tip follows a given path
     Reverse(Reverse),
-    /// Find the gears that drive a machine's crank so that its output does what its goals require
+    /// Design the gears that drive a machine's crank so that its output meets its goals
     Drive(Drive),
-    /// Design in the browser: a page of this computer alone, until Ctrl-C
+    /// Design in the browser, on a page that only this computer can open; Ctrl-C ends it
     Studio(Studio),
-    /// Write a design's figures, curves and moving picture as one HTML file
+    /// Write a design's figures, curves and animation as one HTML file
     Report(Report),
-    /// Write a certificate of gears' contact at every driver angle, for a checker to prove
+    /// Write a certificate of the gear contact at every driver angle, for a separate proof checker
     Prove(Prove),
-    /// Print the JSON schema of the design file, or of a file that is exported
+    /// Print the JSON schema of the design file, or of an exported file
     Schema(Schema),
     /// Print a completion script for a shell
     Completions(Completions),
@@ -70,14 +70,14 @@ pub(crate) struct New {
         FAMILIES.words().into_iter().chain(SHIPPED.map(|(name, _)| name))
     ))]
     pub(crate) name: Option<String>,
-    /// File for the design instead of standard output; one that exists is not replaced
+    /// Design file to write, instead of standard output; an existing file is not replaced
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit status: 0 good; 1 a finding of severity error; 2 no mechanism or a bad design file."
+    after_help = "Exit status: 0 success; 1 a finding of severity error; 2 impossible mechanism or invalid design file."
 )]
 pub(crate) struct Check {
     /// Design file, or - for standard input
@@ -85,50 +85,50 @@ pub(crate) struct Check {
     /// Print the report as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
+    /// Instead of a check, list the figures that the goals of this design can refer to, with their extremes over the cycle
     #[arg(long)]
     pub(crate) figures: bool,
-    /// Print changed designs that fix the findings of the check: for gear pairs, from how many teeth on the flanks
-    /// alone carry the motion
+    /// Print changed designs that fix the findings of the check; for gear pairs, designs with enough teeth that the
+    /// flanks alone transmit the motion
     #[arg(long, conflicts_with = "figures")]
     pub(crate) remedy: bool,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode export pair.toml --to out --format dxf,json\n\nExit status: 0 good; 1 a finding of severity error (the files are written all the same); 2 no mechanism, or the files cannot be written."
+    after_help = "Example: centrode export pair.toml --to out --format dxf,json\n\nExit status: 0 success; 1 a finding of severity error (the files are still written); 2 impossible mechanism, invalid design file, or the files cannot be written."
 )]
 pub(crate) struct Export {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// Folder for the files, made if it is missing
+    /// Folder for the files, created if it does not exist
     #[arg(short = 'o', long = "to", visible_alias = "output", value_name = "DIR")]
     pub(crate) to: PathBuf,
-    /// Replace files in the folder that no export wrote, or that were changed since
+    /// Also replace files in the folder that are not from an export, or that were changed since
     #[arg(long)]
     pub(crate) force: bool,
-    /// Kinds of file, separated by commas [default: dxf, svg, pdf, step, 3mf, json]
+    /// File formats, separated by commas [default: dxf, svg, pdf, step, 3mf, json]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
-    /// Kinds of file for a receiver, instead of --format
+    /// File formats for the receiver of the files, instead of --format
     #[arg(long = "for", value_parser = by_word(Purpose::NAMES, about_purpose), value_name = "RECEIVER", conflicts_with = "format")]
     pub(crate) purpose: Option<Purpose>,
-    /// Maximum distance of what is written from the exact curve, mm [default: 0.001; for print 0.01]
+    /// Maximum deviation of the written curves and meshes from the exact ones, mm [default: 0.001; for print 0.01]
     #[arg(long, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) tolerance: Option<Tolerance>,
-    /// Flavour of the DXF files
+    /// Release of the DXF files and type of their curves
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
-    /// Layers of the cutting files: contour and holes alone, or all, the rest not plotting
+    /// Layers of the cutting files: only contour and holes, or all; the additional layers do not plot
     #[arg(long, value_parser = by_word(Layers::NAMES, about_layers), default_value = Layers::Cut.name())]
     pub(crate) layers: Layers,
-    /// Parts to write files of, separated by commas: of these, or those that the design names; default: all
+    /// Parts to write files for, separated by commas: from this list, or as named in the design; default: all
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
-    /// Size of the drawing sheets; default: the design's, or the smallest that takes the part
+    /// Size of the drawing sheets; default: the design's, or the smallest on which the part fits
     #[arg(long, value_parser = by_word(SheetSize::NAMES, about_size), ignore_case = true, value_name = "SIZE")]
     pub(crate) sheet: Option<SheetSize>,
-    /// How views lie to each other on the drawing sheets; default: as in the design
+    /// Projection method of the drawing sheets; default: as in the design
     #[arg(long, value_parser = by_word(Projection::NAMES, about_projection), value_name = "METHOD")]
     pub(crate) projection: Option<Projection>,
 }
@@ -163,30 +163,30 @@ impl Export {
 /// A kind of file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum File {
-    /// Cutting files: each gear, and both assembled
+    /// Cutting files of each part and of the assembly
     Dxf,
-    /// Pictures of the same
+    /// Cutting files as SVG pictures
     Svg,
     /// Drawing sheets with dimensions and tables, as DXF and SVG
     Sheet,
     /// Drawing sheets as PDF
     Pdf,
-    /// Solids
+    /// Solids as triangle meshes
     Stl,
     /// Exact solids for CAD
     Step,
-    /// Solids with their unit, for printing
+    /// Solids as meshes with their unit, for 3D printing
     #[value(name = "3mf")]
     ThreeMf,
     /// Points of the outlines, measures over pins, and the motion
     Csv,
-    /// Simulator model, with its solids and motion
+    /// URDF simulator model, with its solids and motion
     Urdf,
-    /// Model with a convex body a tooth for contact, with its solids, motion and a script
+    /// MuJoCo model with one convex contact body per tooth, its solids, its motion and a script
     Mjcf,
     /// Report: every figure and finding
     Json,
-    /// All of them
+    /// All formats
     All,
 }
 
@@ -258,7 +258,7 @@ fn about_projection(projection: Projection) -> String {
 fn about_layers(layers: Layers) -> String {
     match layers {
         Layers::Cut => "Contour and holes",
-        Layers::All => "Pitch curve, tip and root curves and centre lines too",
+        Layers::All => "Also pitch curve, tip and root curves, and centre lines",
     }
     .to_owned()
 }
@@ -285,7 +285,7 @@ pub(crate) enum Dxf {
 pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
     let mm: f64 = word
         .parse()
-        .map_err(|_| "not a number of millimetres".to_owned())?;
+        .map_err(|_| "must be a number in millimetres".to_owned())?;
     let tolerance = Tolerance::new(mm).map_err(|error| error.to_string())?;
     if mm < FINEST {
         return Err(format!("tolerance must be at least {FINEST} mm"));
@@ -295,7 +295,7 @@ pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and saves the best design found; --resume goes on from the search stored next to the output. If the bounds allow no design that reaches the goals, the search prints the nearest figures; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design lists the parameters that may change and their bounds: [optimise] for a three-arm, [bounds] for a feeder, [vary] for a machine. Ctrl-C ends the search and saves the best design found. --resume continues the search stored next to the output. If no design within the bounds reaches the goals, the search prints the closest figures. --widen then writes the design with the minimum widening of the bounds.\n\nExit status: 0 every goal is reached; 1 some are not (the file is still written); 2 no search is possible, the design file is invalid, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input
@@ -303,25 +303,25 @@ pub(crate) struct Optimise {
     /// Search method; default: guided, or that of the resumed search
     #[arg(long, value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
     pub(crate) method: Option<String>,
-    /// Seed of the search; the same result on any number of cores; default: 1, or that of the resumed search
+    /// Random seed; one seed gives the same result on any number of cores; default: 1, or that of the resumed search
     #[arg(long)]
     pub(crate) seed: Option<u64>,
     /// Maximum number of evaluations; the current generation is finished; default: 20000, or that of the resumed search
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) evaluations: Option<u64>,
-    /// Points per generation; default: by the method and the number of parameters
+    /// Points per generation; default: depends on the method and the number of parameters
     #[arg(long)]
     pub(crate) population: Option<usize>,
-    /// File for the better design: the design's text with the new numbers and the same comments
+    /// File for the improved design: the text of the design file with new numbers, its comments unchanged
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Go on with the search that is stored next to the output
+    /// Continue the search stored next to the output
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Instead of a search, widen the bounds by as little as lets all goals be reached, where the family can
+    /// Instead of a search, widen the bounds by the minimum with which all goals can be reached, if the family allows it
     #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "resume"])]
     pub(crate) widen: bool,
-    /// Print the outcome as JSON
+    /// Print the result as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -340,7 +340,7 @@ impl Optimise {
 pub(crate) struct Response {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// Key of a number of the design file, such as `arm.tip_distance`, or a parameter's name, such as r1
+    /// Key of a number in the design file, such as `arm.tip_distance`, or the name of a parameter, such as r1
     #[arg(long, value_name = "KEY")]
     pub(crate) parameter: String,
     /// First value, in the file's unit
@@ -355,7 +355,7 @@ pub(crate) struct Response {
     /// Goals or figures to print, separated by commas; default: the goals
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     pub(crate) of: Vec<String>,
-    /// Check every value as a whole, teeth and cams too, for --csv and --json
+    /// Run the whole check at every value, including teeth and cams, for --csv and --json
     #[arg(long)]
     pub(crate) whole: bool,
     /// Write every figure at every value to a CSV file, angles in radians
@@ -368,29 +368,29 @@ pub(crate) struct Response {
 
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Family of mechanism, a path for `reverse`, or a file that is exported; default: the design file of all families
+    /// Family of mechanism, `path` for the file of `reverse`, or an exported file; default: the design file of all families
     #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words().into_iter().chain(crate::cli::schema::FILES)))]
     pub(crate) family: Option<String>,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page opens only with its secret address."
+    after_help = "Prints the address of the page. The page opens only with this secret address. Only the design file and its autosaves are written; from the start page, also the files opened or created there and their autosaves."
 )]
 pub(crate) struct Studio {
-    /// Design file; default: a start page with every shipped design, templates, and the files of this folder
+    /// Design file; default: a start page with all shipped designs, templates, and the files of the current folder
     pub(crate) design: Option<PathBuf>,
     /// Open the page in the browser
     #[arg(long)]
     pub(crate) open: bool,
-    /// Port on this computer; 0 for any that is free
+    /// Port on this computer; 0 for any free port
     #[arg(long, default_value_t = 0)]
     pub(crate) port: u16,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode report pair.toml -o pair.html\n\nExit status: 0 good; 1 a finding of severity error (the file is written all the same); 2 no mechanism, or the file cannot be written."
+    after_help = "Example: centrode report pair.toml -o pair.html\n\nExit status: 0 success; 1 a finding of severity error (the file is still written); 2 impossible mechanism, invalid design file, or the file cannot be written."
 )]
 pub(crate) struct Report {
     /// Design file, or - for standard input
@@ -402,7 +402,7 @@ pub(crate) struct Report {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 invalid design, this mesh cannot be certified, or the file cannot be written."
+    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nFor a machine with several pairs, one file per pair is written, with the name of the pair in its file name. A certificate is only a claim: python tools/proof_checker.py pair.proof proves or rejects it, from the contours and the law alone.\n\nExit status: 0 written; 2 invalid design, this mesh cannot be certified, or the file cannot be written."
 )]
 pub(crate) struct Prove {
     /// Design file, or - for standard input
@@ -417,7 +417,7 @@ pub(crate) struct Prove {
 
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// Shell that reads the script
+    /// Shell for which the script is written
     #[arg(value_enum)]
     pub(crate) shell: clap_complete::Shell,
 }

@@ -33,7 +33,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
         if tables.is_empty() {
             let family = mechanism.design().family().word;
             return Err(Failure::Usage(format!(
-                "the goals of family {family:?} are given: only those of family \"machine\" name figures"
+                "the goals of family {family:?} are fixed: --figures is only for family \"machine\""
             )));
         }
         let report = Report {
@@ -48,7 +48,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
         return Ok(Status::Good);
     }
     if command.remedy {
-        progress.step("looking for remedies");
+        progress.step("searching for remedies");
         let found = mechanism.remedies();
         drop(progress);
         return remedies(command, mechanism.as_ref(), &found, out);
@@ -76,11 +76,13 @@ fn remedies(
 ) -> Result<Status, Failure> {
     if found.is_empty() {
         if let Some(why) = mechanism.no_remedy() {
-            return Err(Failure::Usage(format!("no teeth carry the motion: {why}")));
+            return Err(Failure::Usage(format!(
+                "no teeth transmit the motion: {why}"
+            )));
         }
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(
-            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MAX_TEETH} teeth or fewer have one, and machines whose plates or pins collide and have layers in which they do not"
+            "no remedy is known for this design of family {family:?}: remedies exist for gear pairs whose flanks can transmit the motion with {MAX_TEETH} teeth or fewer, and for machines whose colliding plates or pins can be moved to other layers"
         )));
     }
     let designs: Vec<(&str, String)> = found

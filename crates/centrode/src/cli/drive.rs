@@ -22,7 +22,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
     let progress = Progress::new(3);
     progress.step("resolving the design");
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
-    progress.step("timing the crank");
+    progress.step("computing the law of the crank");
     let spec = GearDriveSpec {
         body: command.body.clone(),
         center_distance: command.center_distance,
@@ -31,7 +31,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
     let made = mechanism.gear_drive(&spec).ok_or_else(|| {
         let family = mechanism.design().family().word;
         Failure::Usage(format!(
-            "a drive is found for family \"machine\", not for {family:?}"
+            "a drive can be designed only for family \"machine\", not for {family:?}"
         ))
     })?;
     let made = made.map_err(|error| source.refused(&error))?;
@@ -41,7 +41,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
     let Some(output) = &command.output else {
         return Ok(Status::Good);
     };
-    progress.step("looking for sound teeth");
+    progress.step("searching for sound teeth");
     let toothed = with_sound_teeth(&made.design, |pair| pair == GearDrive::PAIR);
     drop(progress);
     let (design, found) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
@@ -75,13 +75,13 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
     line(out, "ratio", &words)?;
     minimum_radii(out, GearDrive::PAIR, made.minimum_radii)?;
     let words = format!(
-        "{} at most, with a law of {} steps",
+        "at most {}, with a law of {} steps",
         unit.with_unit(made.miss.value),
         made.steps
     );
-    line(out, "output off its law", &words)?;
+    line(out, "deviation from law", &words)?;
     if !made.left_alone.is_empty() {
-        line(out, "goals left alone", &made.left_alone.join(", "))?;
+        line(out, "goals not considered", &made.left_alone.join(", "))?;
     }
     Ok(())
 }

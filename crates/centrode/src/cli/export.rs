@@ -123,7 +123,7 @@ fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
     let refused = |option: &str, files: &str| {
-        let message = format!("{option} is for {files}, and --format names none");
+        let message = format!("{option} is only for {files}, and none is requested");
         Err(Failure::Usage(message))
     };
     if command.sheet.is_some() && !sheets {

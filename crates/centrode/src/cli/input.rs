@@ -13,7 +13,7 @@ pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     if let Ok(there) = path.canonicalize().and_then(fs::metadata)
         && is_pipe(there.file_type())
     {
-        let words = "it is a named pipe: read it as standard input, by -";
+        let words = "it is a named pipe: redirect it to standard input, and give - as the file";
         return Err(io::Error::other(words));
     }
     up_to(File::open(path)?, limit)
@@ -93,7 +93,7 @@ impl Source {
         if own.is_some() && own == other {
             let path = output.display();
             return Err(Failure::Usage(format!(
-                "{path} is {noun}: name another file to write"
+                "{path} is {noun}: choose another output file"
             )));
         }
         Ok(())

@@ -41,7 +41,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
         if !search.is_of(problem) {
             let name = stored.name();
             let other =
-                format!("{name} is the search of another design: parameters or bounds differ");
+                format!("{name} is a search of another design: its parameters or bounds differ");
             return Err(Failure::Usage(other));
         }
         same(command, &search, &stored.name())?;
@@ -93,7 +93,9 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
 /// Checks that method and seed of the command line are those of the stored search: they cannot change when it is resumed.
 fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
     let differs = |flag: &str, requested: &str, stored: &str| {
-        let message = format!("--{flag} {requested}: {name} is a search with the {flag} {stored}");
+        let message = format!(
+            "--{flag} {requested}: the search in {name} has {flag} {stored}, which cannot change"
+        );
         Err(Failure::Usage(message))
     };
     match (&command.method, search.strategy().name()) {
@@ -116,7 +118,7 @@ fn watched(
 ) -> Result<(Ended, f64), Failure> {
     let interrupt = Interrupt::watch();
     let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
-    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} to go";
+    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(style) {
         bar.set_style(style);
     }
@@ -132,7 +134,7 @@ fn watched(
         let ended = search.run(problem, &mut |progress| {
             bar.set_position(progress.evaluations);
             bar.set_message(if progress.violation > 0.0 {
-                format!("goals missed by {:.4}", progress.violation)
+                format!("total miss of goals {:.4}", progress.violation)
             } else {
                 format!("goals reached, objective {:.6}", progress.objective)
             });

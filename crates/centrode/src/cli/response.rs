@@ -36,7 +36,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     let value = |i: u16| command.from + span * f64::from(i) / steps;
     let values: Vec<f64> = (0..command.count).map(value).collect();
     let progress = Progress::new(1);
-    progress.step("checking at every value");
+    progress.step("checking every value");
     let find = |depth| {
         let response = file.family().response(file.design(), &key, &values, depth);
         let response = response.map_err(|error| Failure::Usage(error.message()))?;
@@ -94,7 +94,7 @@ fn requested<'a>(
         answers.iter().find(|a| is_named(a, name)).ok_or_else(|| {
             let known: Vec<&str> = answers.iter().map(|a| &*a.name).collect();
             Failure::Usage(format!(
-                "no figure {name:?}; there are {}",
+                "unknown figure {name:?}; known figures are {}",
                 known.join(", ")
             ))
         })

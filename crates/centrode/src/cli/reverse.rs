@@ -60,10 +60,10 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     progress.step("splitting the motion");
     let split = Split::new(chain, kind, bend)
         .map_err(|error| requested.blame(command.bend.is_some(), "--bend", "bend_deg", error))?;
-    progress.step("rolling the pitch curves");
+    progress.step("computing the pitch curves");
     let made = rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
-    progress.step("looking for sound teeth");
+    progress.step("searching for sound teeth");
     let toothed = command.output.as_ref().map(|_| Toothed::new(&made));
     drop(progress);
     if let Some(words) = &requested.drawing {
@@ -118,7 +118,7 @@ fn search(
 ) -> Result<(Found, Option<Interrupt>), Failure> {
     let is_searched = requested.design.bands().is_some();
     progress.step(match is_searched {
-        true => "seeking the path",
+        true => "searching for the path",
         false => "trying axes",
     });
     let interrupt = is_searched.then(Interrupt::watch);
@@ -126,7 +126,7 @@ fn search(
     let mut evaluations = 0;
     let found = Found::by_path(&requested.design, &requested.points, &mut |done| {
         evaluations = done;
-        progress.report(format!("seeking the path, {done} evaluations,"));
+        progress.report(format!("searching for the path, {done} evaluations,"));
         match came() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -134,7 +134,7 @@ fn search(
     });
     let mut found = found.map_err(|error| refused(command, requested, error))?;
     if came() {
-        let words = format!("stopped after {evaluations} evaluations: the best so far");
+        let words = format!("stopped after {evaluations} evaluations; this is the best so far");
         found.stated.push(("search".into(), words));
     }
     Ok((found, interrupt))
@@ -145,7 +145,7 @@ fn refused(command: &Reverse, requested: &Request, error: NotFound) -> Failure {
         NotFound::Crossing(error) => {
             let name = requested.source.name();
             Failure::Usage(format!(
-                "{name}: {error} Such a path is taken with {}.",
+                "{name}: {error} To accept such a path, use {}.",
                 requested.spelled("--crossing", "path.crossing = true")
             ))
         }
@@ -155,7 +155,7 @@ fn refused(command: &Reverse, requested: &Request, error: NotFound) -> Failure {
         NotFound::Easing(EasingError::Module { .. }) => {
             let module = command.module.unwrap_or_default();
             Failure::Usage(format!(
-                "--module is greater than zero, in mm, not {module:?}"
+                "--module must be greater than zero, in mm, not {module:?}"
             ))
         }
         error @ NotFound::NoAxis { .. } => Failure::Usage(error.to_string()),
@@ -197,7 +197,7 @@ fn chosen(
     let (name, words) = words::minimum_radius(made);
     line(out, name, &words)?;
     let shaft = Unit::Millimetre.with_unit(chain.shaft_distance());
-    line(out, "tip passes the shaft at", &shaft)?;
+    line(out, "tip to shaft, minimum", &shaft)?;
     let words = format!(
         "{}, bend {bend} deg, {arms} {}",
         split.kind().name(),

@@ -202,7 +202,7 @@ fn three_arm_mechanisms_that_cannot_be_are_refused() {
         (
             "module = 2.5",
             "pick_angle_deg = [15, -5]",
-            &["goals.pick_angle_deg: must be a range from less to more"],
+            &["goals.pick_angle_deg: must be a range from low to high"],
             16,
         ),
         // Gears that do not close at the distance requested.

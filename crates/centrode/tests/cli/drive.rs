@@ -126,7 +126,7 @@ fn what_cannot_be_driven_is_refused_with_the_reason_and_nothing_is_written() {
         ),
         (
             SLIDER.replace("[170, 210]", "[110, 210]"),
-            "goals.steady: from 30 deg to 120 deg",
+            "goals.steady is from 30 deg to 120 deg",
         ),
         (
             SLIDER.replace("ratio = 1", "ratio = 3"),

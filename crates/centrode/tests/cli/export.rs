@@ -190,7 +190,7 @@ fn bad_options_write_nothing_and_end_with_two() {
         (["--tolerance", "inf"], "inf"),
         (["--tolerance", "1e-9"], "at least"),
         (["--tolerance", "5"], "too coarse"),
-        (["--tolerance", "fine"], "not a number"),
+        (["--tolerance", "fine"], "must be a number"),
         (["--format", "png"], "png"),
         (["--format", ""], "possible values"),
         (["--dxf", "r9"], "r9"),

@@ -106,11 +106,11 @@ fn parts_the_machine_has_not_are_refused_and_nothing_is_written() {
         (&["--part", ""], "a value is required"),
         (
             &["--part", "assembly", "--format", "stl"],
-            "--part assembly is for drawings and the assembly",
+            "--part assembly is only for drawings and the assembly",
         ),
         (
             &["--part", "cam", "--format", "urdf"],
-            "--part is for drawings, solids and tables",
+            "--part is only for drawings, solids and tables",
         ),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");

@@ -38,7 +38,7 @@ fn what_was_chosen_is_printed() {
         "carrier                 125.6121 mm, turns counter-clockwise",
         "arm                     186.5937 mm",
         "ratio                   0.5155 to 2.1793",
-        "tip passes the shaft at 60.9816 mm",
+        "tip to shaft, minimum   60.9816 mm",
         "split                   powers, bend 40 deg, 1 arm",
         "split one-pair          the same pair twice does not work for this path: the planet must lag by 0.611111 turns, 11/18,",
     ] {
@@ -80,7 +80,7 @@ fn key_poses_are_met_and_bad_ones_refused() {
     for (csv, wrong) in [
         (
             "0,0,0\n10,0,0\n",
-            "2 key poses are given; a machine is found for 3 to 7",
+            "2 key poses are given; there must be 3 to 7",
         ),
         ("0,0,0\n10,0\n20,5,1\n", "line 2 has 2 values"),
         ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one position"),
@@ -318,7 +318,7 @@ fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
     let stated = text(&run.stdout);
     assert!(
-        stated.contains(", not 20.0000 mm: give more room"),
+        stated.contains(", not 20.0000 mm: use a larger band"),
         "{stated}"
     );
 }
@@ -333,27 +333,27 @@ fn bands_and_modules_that_are_none_are_refused() {
         (
             &["--band", "-1"][..],
             DRAWN,
-            "the band of point 1 is zero or more, in mm, not -1",
+            "the band of point 1 must be zero or more, in mm, not -1",
         ),
         (
             &["--band", "nan"],
             DRAWN,
-            "the band of point 1 is zero or more",
+            "the band of point 1 must be zero or more",
         ),
         (
             &["--band", "5", "--module", "0"],
             DRAWN,
-            "--module is greater than zero, in mm, not 0",
+            "--module must be greater than zero, in mm, not 0",
         ),
         (
             &["--module", "1"],
             DRAWN,
-            "say by how much with --band, or by a column headed tolerance",
+            "give --band, or a column headed tolerance",
         ),
         (
             &["--module", "1"],
             &negative,
-            "line 2: the tolerance of a point is zero or more, in mm, not -2",
+            "line 2: the tolerance of a point must be zero or more, in mm, not -2",
         ),
         (&["--band", "1", "--poses"], DRAWN, "cannot be used with"),
     ] {
@@ -459,7 +459,7 @@ fn a_wish_that_breaks_a_rule_is_shown_at_its_line() {
         ("keep_out.tray.radius = 3", "wishes.keep_out.tray.center"),
         (
             "keep_out.tray = { corners = [[0, 0], [1, 1]] }",
-            "three or more",
+            "three corners or more",
         ),
         ("carier = { maximum = 3 }", "carier"),
     ] {
@@ -500,8 +500,7 @@ fn directions_stand_in_a_column_of_their_own_and_points_in_a_file_beside_the_des
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
     for (goal, point) in [(1, 5), (2, 9)] {
-        let words =
-            format!("goal {goal}                  clamp off its direction at point {point}");
+        let words = format!("goal {goal}                  clamp direction error at point {point}");
         assert!(stated.contains(&words), "{stated}");
     }
     assert!(
@@ -565,7 +564,7 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
         line.contains("where x ends at 240.0000 mm and y ends at 150.0000 mm:"),
         "{line}"
     );
-    assert!(line.contains("what helps: a wider box"), "{line}");
+    assert!(line.contains("remedy: a larger axis_box"), "{line}");
     // The axis lies in the box, and is no better than one of a wider box.
     let axis = stated
         .lines()
@@ -700,14 +699,14 @@ fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
             "path",
             "module = 1",
             &[],
-            "error: path.module: it eases a path: say by how much with path.band",
+            "error: path.module: it limits how far a path is eased: give path.band",
         ),
         (
             "",
             "bands",
             "band = 2",
             &[],
-            "error: path.band: the file of points has a tolerance",
+            "error: path.band: the file has a tolerance for each point",
         ),
         (
             "axis = [60, 200]",
@@ -721,7 +720,7 @@ fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
             "bands",
             "",
             &["--band", "2"],
-            "error: --band: the file of points has",
+            "error: --band: the file has",
         ),
         (
             "",
@@ -735,7 +734,7 @@ fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
             "path",
             "",
             &["--module", "1"],
-            "error: --module: it eases a path: say by how much with --band",
+            "error: --module: it limits how far a path is eased: give --band",
         ),
         (
             "",
@@ -756,7 +755,7 @@ fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
             "eight",
             "",
             &[],
-            "Such a path is taken with path.crossing = true.",
+            "To accept such a path, use path.crossing = true.",
         ),
     ] {
         let path = design(keys, file, more);
@@ -810,7 +809,7 @@ fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
             &["--bend", "175"],
             "error: --bend: the bend must be at most",
         ),
-        ("eight.csv", &[], "Such a path is taken with --crossing."),
+        ("eight.csv", &[], "To accept such a path, use --crossing."),
     ] {
         let run = centrode(&[&["reverse", &csv(name)], options].concat());
         let message = text(&run.stderr);
@@ -833,7 +832,7 @@ fn points_of_three_numbers_and_second_directions_are_refused_where_they_stand() 
                 "family = \"path\"\n[path]\npoints = {}\n[wishes]\ndirections = [{{ point = 2, direction_deg = 0 }}, {{ point = 2, direction_deg = 90 }}]\n",
                 points.replace(", 1]", "]")
             ),
-            "wishes.directions[1].point: is 2 a second time",
+            "wishes.directions[1].point: is 2 again, as in an earlier entry",
         ),
     ] {
         let run = fed(&["reverse", "-"], text_of.as_bytes());

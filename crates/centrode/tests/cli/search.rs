@@ -155,16 +155,16 @@ fn an_altered_search_is_not_gone_on_with() {
     ] {
         assert_ne!(altered, sound);
         fs::write(&stored, altered).expect("written");
-        refused(&[], "b.search.json is no stored search");
+        refused(&[], "b.search.json is not a valid stored search");
     }
     fs::write(&stored, &sound).expect("written");
     refused(
         &["--seed", "2"],
-        "--seed 2: b.search.json is a search with the seed 1",
+        "--seed 2: the search in b.search.json has seed 1",
     );
     refused(
         &["--method", "ga"],
-        "--method ga: b.search.json is a search with the method de",
+        "--method ga: the search in b.search.json has method de",
     );
     // A number that the search does not move.
     let line = design
@@ -172,7 +172,7 @@ fn an_altered_search_is_not_gone_on_with() {
         .find(|line| line.starts_with("effector_length"));
     let other = design.replace(line.expect("there"), "effector_length = 201");
     fs::write(&from, other).expect("written");
-    refused(&[], "stored for a design that has since been changed");
+    refused(&[], "the design has changed since");
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn a_response_is_told_as_table_and_written_as_csv() {
     assert_eq!(refused.status.code(), Some(2));
     let mut strange = requested.to_vec();
     strange.extend(["--of", "nothing"]);
-    assert!(text(&centrode(&strange).stderr).contains("no figure \"nothing\""));
+    assert!(text(&centrode(&strange).stderr).contains("unknown figure \"nothing\""));
 }
 
 #[test]
@@ -298,7 +298,7 @@ fn a_search_does_not_write_over_its_design() {
         assert_eq!(refused.status.code(), Some(2));
         let stated = text(&refused.stderr);
         assert!(
-            stated.contains("is the design: name another file"),
+            stated.contains("is the design: choose another output file"),
             "{stated}"
         );
         assert_eq!(fs::read(&design).expect("there"), before);
@@ -318,7 +318,10 @@ fn a_response_to_what_is_no_number_is_refused() {
         let requested = centrode(&[&["response", &design, "--parameter", key][..], &ends].concat());
         let stated = text(&requested.stderr);
         assert_eq!(requested.status.code(), Some(2), "{key}: {stated}");
-        assert!(stated.contains(&format!("{key}: is no number")), "{stated}");
+        assert!(
+            stated.contains(&format!("{key}: is not a number")),
+            "{stated}"
+        );
     }
 }
 

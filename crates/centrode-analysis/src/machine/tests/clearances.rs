@@ -249,7 +249,7 @@ fn obstacles_that_cannot_be_are_told_by_key() {
         (
             "below = 1\nheights = [3, 2]",
             "obstacles.tray.heights",
-            "from less to more",
+            "from low to high",
         ),
         (
             "outline = [[0, 0], [1, 1], [1, 0], [0, 1]]",

@@ -65,7 +65,7 @@ pub enum EditError {
     #[error("the text is not TOML: {0}")]
     Syntax(#[from] toml_edit::TomlError),
     /// Nothing can be set at the key.
-    #[error("{key} is no key that can be set")]
+    #[error("{key} cannot be set")]
     Key {
         /// The key.
         key: String,

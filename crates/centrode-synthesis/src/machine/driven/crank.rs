@@ -50,12 +50,12 @@ impl<'a> Crank<'a> {
             let dyads = design.dyads.iter();
             let mut makers = dyads.filter(|(_, dyad)| dyad.bodies.contains(&spec.body));
             match makers.next() {
-                Some((dyad, _)) => no(&format!("is tied by dyads.{dyad}")),
-                None => no("is no body of bodies"),
+                Some((dyad, _)) => no(&format!("belongs to dyads.{dyad}")),
+                None => no("is not in bodies"),
             }
         })?;
         let on = body.on.as_deref().filter(|on| on.starts_with("frame."));
-        let on = on.ok_or_else(|| no("turns on no point of the frame"))?;
+        let on = on.ok_or_else(|| no("does not turn on a point of the frame"))?;
         if body.slides.is_some() {
             return Err(no("slides"));
         }

@@ -25,13 +25,13 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
             why,
         };
         if motion(composed, figure, 0.0).is_none() {
-            let why = "the output must be a place or an angle: point.x, point.y, body.angle, body.swing or body.travel";
+            let why = "the output must be a position or an angle: point.x, point.y, body.angle, body.swing or body.travel";
             return Err(refused(why.into()));
         }
         match found {
             Some((other, words)) if other != *figure => {
                 return Err(refused(format!(
-                    "another goal is of {words}, and all goals of the output must be of one figure"
+                    "another goal has figure {words}, but all goals of the output must have one figure"
                 )));
             }
             _ => found = Some((*figure, &goal.figure)),

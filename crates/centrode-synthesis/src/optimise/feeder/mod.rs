@@ -156,13 +156,13 @@ impl DesignProblem for FeederProblem {
         if missed("transmission-angle") {
             return Some(match Attainable::search(&self.start) {
                 Some(found) => format!("infeasible: {found}"),
-                None => "infeasible: the bounds hold no crank-rocker that would do".into(),
+                None => "infeasible: no crank-rocker within the bounds has the required transmission angle".into(),
             });
         }
         let spec = &self.start.optimise;
         spec.free_pivot.then(|| {
             format!(
-                "the pivot was moved by {:.4} mm, each held to be worth {} deg of swing: without this weight lengths of any size would do, each with places of the pivot of its own",
+                "the pivot was moved by {:.4} mm; the search counts each mm as {} deg of swing. Without this weight, lengths of any size would reach the swing, each with its own positions of the pivot",
                 self.moved(&self.at(point)),
                 spec.pivot_weight.to_degrees()
             )

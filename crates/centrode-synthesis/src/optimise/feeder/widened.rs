@@ -25,7 +25,7 @@ pub struct Widened {
 pub enum NotWidened {
     /// The bounds contain lengths with the required angle.
     #[error(
-        "the bounds hold lengths with a minimum transmission angle of {:.4} deg, and {:.4} deg is required: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
+        "the bounds already allow lengths with a minimum transmission angle of {:.4} deg, and {:.4} deg is required: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
     )]
     Needless {
         /// Largest minimum transmission angle within the bounds, rad.

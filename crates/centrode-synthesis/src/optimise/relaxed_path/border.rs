@@ -25,7 +25,7 @@ pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
         ends.map(|(name, _, side)| format!("{name} ends at {}", Unit::Millimetre.with_unit(*side)));
     let ends: Vec<String> = ends.collect();
     let message = format!(
-        "the axis found, ({:.4}, {:.4}) mm, is at the border of the box that was searched, where {}: there may be a better one outside",
+        "the axis found, ({:.4}, {:.4}) mm, is at the border of the searched box, where {}: there may be a better axis outside",
         axis.x,
         axis.y,
         ends.join(" and ")
@@ -33,7 +33,7 @@ pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
     Some(
         Finding::new("axis-at-border", Severity::Note, message)
             .measured(at, side, Unit::Millimetre)
-            .remedy("a wider box, axis_box, or an axis that is given")
+            .remedy("a larger axis_box, or a given axis")
             .on("carrier"),
     )
 }

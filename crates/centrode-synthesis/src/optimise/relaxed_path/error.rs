@@ -9,7 +9,7 @@ pub enum EasingError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// A band that is negative or not finite.
-    #[error("the band of point {number} is zero or more, in mm, not {band:?}")]
+    #[error("the band of point {number} must be zero or more, in mm, not {band:?}")]
     Band {
         /// Number of the point, from one.
         number: usize,
@@ -25,7 +25,7 @@ pub enum EasingError {
         points: usize,
     },
     /// Too few points of a working part.
-    #[error("the working part of a path has {minimum} points or more, not {count}")]
+    #[error("the working part of a path must have {minimum} points or more, not {count}")]
     TooFew {
         /// Points given.
         count: usize,
@@ -46,7 +46,7 @@ pub enum EasingError {
     #[error("wishes.{0}")]
     Wish(#[from] SpecError),
     /// A module that is not a positive number.
-    #[error("the module is greater than zero, in mm, not {module:?}")]
+    #[error("the module must be greater than zero, in mm, not {module:?}")]
     Module {
         /// Module given, mm.
         module: f64,

@@ -58,7 +58,7 @@ impl Easing {
                 returns: RETURNS.len(),
                 axis: match spec.axis {
                     Some(_) => "the given axis",
-                    None => "axes on and about each path",
+                    None => "axes on and around each path",
                 },
             })
         })

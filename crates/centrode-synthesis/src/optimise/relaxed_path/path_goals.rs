@@ -139,7 +139,7 @@ pub(super) fn goals(
     let clamp = wishes.clamp.or_else(|| middle(&off, &tolerances));
     for ((required, off), clamp) in wishes.directions.iter().zip(&off).zip(clamp.iter().cycle()) {
         let (point, tolerance) = (required.point, required.tolerance);
-        let title = format!("clamp off its direction at point {point}");
+        let title = format!("clamp direction error at point {point}");
         let ends = [Some(-tolerance), Some(tolerance)];
         add(
             format!("direction-{point}"),

@@ -18,7 +18,7 @@ pub struct EasingSpec {
     pub bend: f64,
     /// Figure that is optimised.
     pub aim: Aim,
-    /// Further wishes.
+    /// Other requirements.
     pub wishes: Wishes,
 }
 

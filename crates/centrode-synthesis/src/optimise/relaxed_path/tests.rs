@@ -137,7 +137,7 @@ fn what_is_no_band_is_told() {
     let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
     let fault =
         |bands: &[f64]| Easing::new(&points, &EasingSpec::new(bands, 1.0)).expect_err("no bands");
-    let stated = "the band of point 1 is zero or more, in mm, not -1.0";
+    let stated = "the band of point 1 must be zero or more, in mm, not -1.0";
     assert_eq!(fault(&[-1.0]).to_string(), stated);
     let stated = "there are 2 bands for 13 points: give one for each, or one for all";
     assert_eq!(fault(&[1.0, 2.0]).to_string(), stated);
@@ -168,7 +168,7 @@ fn a_free_return_is_found_and_the_stroke_is_kept() {
     }
     let few = Easing::with_free_return(&stroke[..2], &EasingSpec::new(&[0.0], bend))
         .expect_err("too few");
-    let stated = "the working part of a path has 3 points or more, not 2";
+    let stated = "the working part of a path must have 3 points or more, not 2";
     assert_eq!(few.to_string(), stated);
     let nowhere = EasingSpec {
         axis: Some(Point::new(150.0, 150.0)),

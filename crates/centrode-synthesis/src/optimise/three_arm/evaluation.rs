@@ -85,7 +85,7 @@ pub(super) fn picking_depth(design: &ThreeArmDesign, depth: f64) -> Goal {
 
 /// Clearance of the gearbox from the tray as a constraint.
 pub(super) fn gearbox_tray(mechanism: &ThreeArm) -> Goal {
-    clear("gearbox-tray", "gearbox clear of the tray", 0.0).with(mechanism.gearbox_tray_clearance())
+    clear("gearbox-tray", "gearbox to tray clearance", 0.0).with(mechanism.gearbox_tray_clearance())
 }
 
 /// Constraints apart from the goals of the design.
@@ -97,9 +97,9 @@ fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     vec![
         picking_depth(design, mechanism.picking_depth()),
         gearbox_tray(mechanism),
-        clear("tray-clearance", "arm's housing clear of the tray", tray)
+        clear("tray-clearance", "arm housing to tray clearance", tray)
             .with(arms.and_then(|a| clearance(a.tray))),
-        clear("stem-clearance", "arm clear of stems planted before", 0.0)
+        clear("stem-clearance", "arm to planted stems clearance", 0.0)
             .with(arms.and_then(|a| clearance(a.seedlings))),
     ]
 }

@@ -35,13 +35,17 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
     Some([
         constraint(
             "transmission-error",
-            "transmission error of full teeth",
+            "full teeth: transmission error",
             Unit::Angle,
         )
         .maximum(SLIGHT_TRANSMISSION_ERROR, ERROR)
         .with(error.filter(|error| error.is_finite()).unwrap_or(1.0)),
-        constraint("tooth-findings", "findings against full teeth", Unit::Count)
-            .maximum(0.0, 10.0)
-            .with(against as f64),
+        constraint(
+            "tooth-findings",
+            "full teeth: number of findings",
+            Unit::Count,
+        )
+        .maximum(0.0, 10.0)
+        .with(against as f64),
     ])
 }

@@ -182,7 +182,7 @@ pub enum DrawingError {
         why: String,
     },
     /// A feature of SVG that positions a path and is not supported.
-    #[error("{what} of the drawing is not followed: {remedy}")]
+    #[error("{what} in the drawing is not supported: {remedy}")]
     NotFollowed {
         /// Name of the feature.
         what: &'static str,
@@ -191,7 +191,7 @@ pub enum DrawingError {
     },
     /// No path, or several.
     #[error(
-        "the drawing has {count} paths; leave only the one to follow in it (circles and other shapes become paths by the drawing program's \"object to path\")"
+        "the drawing has {count} paths; it must contain only the path to follow (the drawing program changes circles and other shapes into paths with \"object to path\")"
     )]
     Paths {
         /// Number of paths.
@@ -212,7 +212,7 @@ pub enum DrawingError {
     },
     /// A path of several lines.
     #[error(
-        "the path of the drawing is made of {count} lines apart from each other; it must be one closed line"
+        "the path of the drawing consists of {count} separate lines; it must be one closed line"
     )]
     Several {
         /// Number of lines.
@@ -248,7 +248,7 @@ pub enum DrawingError {
     },
     /// A path to which no smooth curve comes near enough.
     #[error(
-        "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: the sharpest joint of its pieces turns by {angle:.2} deg, at ({x:.4}, {y:.4}) mm; round corners, or allow more",
+        "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: the sharpest joint of its pieces turns by {angle:.2} deg, at ({x:.4}, {y:.4}) mm; round corners, or allow a larger distance",
         stated(*reached),
         stated(*within)
     )]

@@ -145,7 +145,7 @@ fn followed(root: Node<'_, '_>) -> Result<(), DrawingError> {
     for node in shown {
         let name = node.tag_name().name();
         let (what, remedy) = if name == "use" {
-            ("<use>", "make it a path of its own (\"unlink clone\")")
+            ("<use>", "change it to a separate path (\"unlink clone\")")
         } else if name == "svg" && node != root {
             ("<svg> within <svg>", "ungroup the inner drawing")
         } else if style(node, "transform").is_some_and(|value| value != "none") {
@@ -187,14 +187,16 @@ fn page(root: Node<'_, '_>) -> Result<Affine, DrawingError> {
     };
     let scale = length("width")? / view.w;
     if !(scale > 0.0 && scale.is_finite()) {
-        return Err(wrong("width over that of viewBox is no scale".into()));
+        return Err(wrong(
+            "width divided by the width of viewBox is not a valid scale".into(),
+        ));
     }
     if root.has_attribute("height") {
         let other = length("height")? / view.h;
         let agrees = (other / scale - 1.0).abs() <= LOOSE;
         if !agrees {
             return Err(wrong(format!(
-                "by width a unit is {scale} mm, by height {other} mm"
+                "one unit is {scale} mm by width, but {other} mm by height"
             )));
         }
     }

@@ -56,7 +56,7 @@ pub enum PoseError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// Fewer or more poses than a machine can be found for.
-    #[error("{count} key poses are given; a machine is found for {FEWEST} to {MOST}")]
+    #[error("{count} key poses are given; there must be {FEWEST} to {MOST}")]
     Count {
         /// Number of poses.
         count: usize,
@@ -65,7 +65,7 @@ pub enum PoseError {
     #[error("all key poses are at one position: two of them must differ")]
     OnePlace,
     /// No point of the arm whose positions lie on a circle.
-    #[error("no point of the arm has its positions in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
+    #[error("no point of the arm has its positions in all {count} key poses on one circle: the nearest point misses a pose by {} mm, and {TOLERANCE} mm is allowed; move the poses, or give fewer poses", stated(*miss))]
     NoCircle {
         /// Number of poses.
         count: usize,
@@ -74,7 +74,7 @@ pub enum PoseError {
     },
     /// Circles with each of which the carrier or the arm would turn back.
     #[error(
-        "{circles} positions of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
+        "{circles} positions of the arm's axis were tried; with each of them, the carrier or the arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
     )]
     Order {
         /// Number of poses.

@@ -28,12 +28,12 @@ const EXACT: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SplitKind {
-    /// Two different pairs, each of which takes half of the logarithm of the ratio; the intermediate carries two gears.
+    /// Two different pairs; each has half of the logarithm of the ratio. The intermediate shaft has two gears.
     #[default]
     Powers,
-    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as gentle as it can be.
+    /// Two different pairs that share the ratio so that the maximum curvature of their four pitch curves is minimum.
     Mildest,
-    /// One pair twice: sun and planet are one part, and a single intermediate gear meets both.
+    /// One pair used twice: sun and planet are equal parts, and one intermediate gear meshes with both.
     OnePair,
 }
 
@@ -87,7 +87,7 @@ pub enum SplitError {
     },
     /// The rotation number is at or near a fraction, so that no single pair follows.
     #[error(
-        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, where no single pair follows from the path: take another bend, or split by powers",
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, at which the path does not determine one pair; use another bend, or split by powers",
         if *miss < EXACT { String::new() } else { format!("{miss:.1e} from ") }
     )]
     Resonance {
@@ -102,8 +102,8 @@ pub enum SplitError {
     },
     /// The law of one pair does not come out within its limit.
     #[error(
-        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
-        if miss.is_finite() { format!("the law found misses its equation by {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}; use another bend, or split by powers",
+        if miss.is_finite() { format!("the law found has a residual of {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
     )]
     Inexact {
         /// Rotation number required, turns.

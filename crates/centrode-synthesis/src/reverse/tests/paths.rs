@@ -160,11 +160,11 @@ fn columns_without_a_known_heading_are_refused() {
         ("y\n1\n", "line 1: column x is missing"),
         (
             "1,2\n3,4,5\n",
-            "line 2 has 3 values; it must hold x and y in mm",
+            "line 2 has 3 values; it must contain x and y in mm",
         ),
         (
             "1,2,0\n3,4,0\n",
-            "line 1 has 3 values; it must hold x and y in mm",
+            "line 1 has 3 values; it must contain x and y in mm",
         ),
         ("x,y\n1,2,7\n", "line 2 has 3 values"),
         ("x,,y\n1,7,2\n", "line 2 has 3 values"),
@@ -205,15 +205,15 @@ fn messages_of_paths_have_few_digits() {
         ),
         (
             format!("x,y,tolerance\n0,0,-{far}\n"),
-            "line 2: the tolerance of a point is zero or more, in mm, not -1e300",
+            "line 2: the tolerance of a point must be zero or more, in mm, not -1e300",
         ),
         (
             format!("x,y,tolerance\n0,0,-{near}\n"),
-            "line 2: the tolerance of a point is zero or more, in mm, not -1e-300",
+            "line 2: the tolerance of a point must be zero or more, in mm, not -1e-300",
         ),
         (
             format!("x,y,tolerance\n0,0,{}\n", "9".repeat(400)),
-            "line 2: the tolerance of a point is zero or more, in mm, not inf",
+            "line 2: the tolerance of a point must be zero or more, in mm, not inf",
         ),
     ] {
         let read = RequiredPoints::from_csv(text.as_bytes());

@@ -139,7 +139,7 @@ fn what_no_crank_can_do_is_refused_by_name() {
     );
     is(
         error(&[even([0.0, 90.0], [100.0, 120.0]), rest([90.0, 120.0], 0.1)]),
-        "leave room between them",
+        "leave a gap between them",
     );
     is(
         error(&[
@@ -158,7 +158,7 @@ fn what_no_crank_can_do_is_refused_by_name() {
     );
     is(
         error(&[even([0.0, 359.9], [100.0, 100.1])]),
-        "leave more room",
+        "leave a larger gap",
     );
     let twice = FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
         MotionJet::uniform((2.0 * t).sin(), 2.0 * (2.0 * t).cos())
@@ -288,9 +288,9 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     let is = |stated: String, words: &str| assert!(stated.contains(words), "{stated}");
     is(
         error(&same, "rod"),
-        "rod is tied by dyads.ram: a crank turns",
+        "rod belongs to dyads.ram: the crank must turn",
     );
-    is(error(&same, "fan"), "fan is no body of bodies");
+    is(error(&same, "fan"), "fan is not in bodies");
     is(
         error(&|t| t.replace("ratio = 1", "ratio = 2"), "crank"),
         "crank has another law",
@@ -308,11 +308,11 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     );
     is(
         error(&|t| t.replacen("ram.travel", "rod.angle", 1), "crank"),
-        "another goal is of",
+        "another goal has figure",
     );
     is(
         error(&|t| t.replace("ram.travel", "A.speed"), "crank"),
-        "must be a place or an angle",
+        "must be a position or an angle",
     );
     is(
         error(
@@ -324,7 +324,7 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
             },
             "crank",
         ),
-        "moves fan by the input, too",
+        "also moves fan by the input",
     );
     for distance in [f64::NAN, 0.0, -5.0, f64::INFINITY] {
         let spec = GearDriveSpec {

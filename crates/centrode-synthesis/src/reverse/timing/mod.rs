@@ -141,7 +141,7 @@ pub enum TimingError {
     },
     /// Sections of the input that touch or overlap, or whose limits are invalid.
     #[error(
-        "{name}: from {from} deg to {to} deg, where {other} begins at {next} deg: leave room between them, all within one turn"
+        "{name} is from {from} deg to {to} deg, and {other} begins at {next} deg: leave a gap between them, with all of them within one turn"
     )]
     Overlap {
         /// Section.
@@ -165,7 +165,7 @@ pub enum TimingError {
     },
     /// Too large a turn of the crank between two sections.
     #[error(
-        "between {from} and {to} the crank would have to turn by {turn:.4} deg over {room:.4} deg of the input, and no smooth law does: leave more room"
+        "between {from} and {to}, the crank must turn by {turn:.4} deg within {room:.4} deg of the input, which no smooth law does: leave a larger gap"
     )]
     Abrupt {
         /// Section before.

@@ -80,15 +80,15 @@ impl<'a> Outcome<'a> {
         }
         let how = match self.ended {
             Ended::Target if self.reached() => "every goal is reached",
-            Ended::Target => "as good as requested",
-            Ended::Evaluations => "the evaluations are used up",
+            Ended::Target => "target reached",
+            Ended::Evaluations => "maximum number of evaluations reached",
             Ended::Stopped => "stopped",
-            Ended::Stuck => "no step helps any more",
+            Ended::Stuck => "no further step improves the design",
         };
         let evaluations = self.progress.map_or(0, |p| p.evaluations);
         writeln!(
             out,
-            "{method}: {evaluations} evaluations in {:.1} s, {:.0} a second; {how}",
+            "{method}: {evaluations} evaluations in {:.1} s, {:.0} per second; {how}",
             self.seconds,
             evaluations as f64 / self.seconds.max(1e-9)
         )?;
@@ -113,7 +113,7 @@ impl<'a> Outcome<'a> {
         writeln!(
             out,
             "\n{:40} {:>12} {:>12} {:>12}",
-            "Parameters", "before", "after", "of bounds"
+            "Parameters", "before", "after", "of range"
         )?;
         for moved in &self.parameters {
             writeln!(

@@ -35,7 +35,8 @@ impl Stored {
             name: name.clone(),
             error,
         })?;
-        let unusable = |why: &str| Failure::Usage(format!("{name} is no stored search: {why}"));
+        let unusable =
+            |why: &str| Failure::Usage(format!("{name} is not a valid stored search: {why}"));
         let bad = |error: serde_json::Error| unusable(&error.to_string());
         let search: DesignSearch = serde_json::from_str(&text).map_err(bad)?;
         let Sealed { seal } = serde_json::from_str(&text).map_err(bad)?;
@@ -43,7 +44,7 @@ impl Stored {
             return Ok(search);
         }
         Err(unusable(
-            "it was altered, or stored for a design that has since been changed; search anew",
+            "the file was edited, or the design has changed since; start a new search",
         ))
     }
 

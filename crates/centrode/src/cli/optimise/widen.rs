@@ -36,7 +36,7 @@ pub(super) fn run(
     }
     writeln!(
         out,
-        "bounds widened by {:.4} %, rounded outwards to a thousandth of a millimetre\n",
+        "bounds widened by {:.4} %, rounded outwards to 0.001 mm\n",
         100.0 * widened.share
     )?;
     for line in &widened.lines {

@@ -25,7 +25,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let required = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
     let chains = KeyPoses::mildest(&required, PosedProblem::CHAINS)
         .map_err(|error| source.refused(&error))?;
-    progress.step("looking for goals and sound teeth");
+    progress.step("searching for goals and sound teeth");
     let posed = PosedProblem::search(&chains, command.arms.unwrap_or(1), &mut |_, _| {
         ControlFlow::Continue(())
     })
@@ -50,11 +50,15 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     );
     line(out, "bend", &bend)?;
     if let Some(count) = design.tooth_count {
-        line(out, "teeth", &format!("{count} full ones on every gear"))?;
+        line(
+            out,
+            "teeth",
+            &format!("{count} full-height teeth on every gear"),
+        )?;
     }
     for goal in &posed.goals {
         let name = match goal.number {
-            0 => "besides".to_owned(),
+            0 => "constraint".to_owned(),
             number => format!("goal {number}"),
         };
         line(out, &name, &words(goal))?;

@@ -97,7 +97,7 @@ impl Request {
         let required = required.map_err(|error| self.source.refused(&error))?;
         if let Some(tolerances) = required.tolerances {
             if command.band.is_some() || self.design.path.band.is_some() {
-                let words = "the file of points has a tolerance for each point: remove this one";
+                let words = "the file has a tolerance for each point: omit this value";
                 let is_option = command.band.is_some();
                 return Err(self.blame(is_option, "--band", "path.band", Sentence(words)));
             }
@@ -167,10 +167,10 @@ impl Request {
             let is_option = command.module.is_some() || self.file.is_none();
             let words = Sentence(match is_option {
                 true => {
-                    "it eases a path: say by how much with --band, or by a column headed tolerance in the file"
+                    "it limits how far a path is eased: give --band, or a column headed tolerance in the file"
                 }
                 false => {
-                    "it eases a path: say by how much with path.band, path.tolerance or a column headed tolerance"
+                    "it limits how far a path is eased: give path.band, path.tolerance or a column headed tolerance"
                 }
             });
             return Err(self.blame(is_option, "--module", "path.module", words));

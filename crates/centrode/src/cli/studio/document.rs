@@ -38,14 +38,14 @@ pub(crate) struct Recovered {
 /// Reason why the file is not saved.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum SaveError {
-    #[error("{name} has been changed on disk since it was opened here")]
+    #[error("{name} was changed on disk after it was opened here")]
     Changed { name: String },
     #[error("{name} {how}")]
     Missing { name: String, how: String },
     #[error(transparent)]
     Bundle(#[from] BundleError),
     #[error(
-        "the design has {bytes} bytes; a design file has at most {}",
+        "the design has {bytes} bytes; the limit for a design file is {}",
         DesignFile::LARGEST
     )]
     TooLarge { bytes: usize },
@@ -55,7 +55,7 @@ impl Document {
     /// Opens a design file; the design may have errors.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         if path == Path::new("-") {
-            let message = "the page saves into the file it shows: give a file, not standard input";
+            let message = "the page saves the design file: give a file, not standard input";
             return Err(Failure::Usage(message.into()));
         }
         let source = Source::open(path)?;
@@ -67,7 +67,7 @@ impl Document {
         })?;
         let folder = path.parent().unwrap_or(Path::new("/")).to_owned();
         let name = path.file_name().and_then(|n| n.to_str()).map(str::to_owned);
-        let name = name.ok_or_else(|| Failure::Usage("the file's name is not text".into()))?;
+        let name = name.ok_or_else(|| Failure::Usage("the file name is not valid text".into()))?;
         // A name that could not be written is refused before the user begins to work.
         Bundle::default().add(&name, Vec::new())?;
         Ok(Self {
@@ -224,12 +224,12 @@ impl Document {
         let most = DesignFile::LARGEST;
         match fs::metadata(&path) {
             Ok(meta) if meta.len() > most as u64 => Disk::Missing(format!(
-                "has {} bytes on disk; a design file has at most {most}",
+                "has {} bytes on disk; the limit for a design file is {most}",
                 meta.len()
             )),
             Ok(_) => match input::read(&path, most).map(String::from_utf8) {
                 Ok(Ok(text)) => Disk::Text(text),
-                Ok(Err(_)) => Disk::Missing("is not text in UTF-8 on disk".into()),
+                Ok(Err(_)) => Disk::Missing("is not UTF-8 text on disk".into()),
                 Err(error) => Disk::Missing(format!("cannot be read: {error}")),
             },
             Err(_) => Disk::Missing("has been deleted or moved".into()),
@@ -298,10 +298,7 @@ mod tests {
         let refused = |bytes: &[u8]| {
             fs::write(&path, bytes).expect("written");
             let reread = document.reread().expect_err("no text").to_string();
-            assert_eq!(
-                reread, "pair.toml is not text in UTF-8 on disk",
-                "{bytes:?}"
-            );
+            assert_eq!(reread, "pair.toml is not UTF-8 text on disk", "{bytes:?}");
             assert!(matches!(document.disk(), Disk::Missing(_)));
             assert!(document.save("a = 2\n", "a = 1\n", false).is_err());
             assert_eq!(fs::read(&path).expect("there"), bytes);

@@ -35,7 +35,7 @@ pub(super) fn formats() -> Vec<[String; 2]> {
             let help = value.get_help().map(ToString::to_string);
             [value.get_name().to_owned(), help.unwrap_or_default()]
         })
-        .chain([[PAGE, "This page as one file, to be read and sent"].map(str::to_owned)])
+        .chain([[PAGE, "This page as one HTML file, for reading and sending"].map(str::to_owned)])
         .collect()
 }
 
@@ -87,7 +87,7 @@ impl Files {
         words.extend(parts.iter().map(String::as_str));
         match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
             Ok(Command::Export(command)) => Ok(Some(command)),
-            Ok(_) => Err("not an export".into()),
+            Ok(_) => Err("this is not an export command".into()),
             Err(error) => {
                 let message = error.to_string();
                 let first = message.lines().next().unwrap_or_default();

@@ -64,22 +64,22 @@ impl Guard {
         // If there were two values, another reader of the request might use the other one.
         let is_single = |name| headers.get_all(name).iter().count() < 2;
         if !(is_single(header::HOST) && is_single(header::ORIGIN)) {
-            return Some("host or origin is given twice");
+            return Some("the request has two host or origin headers");
         }
         let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         let host = headers.get(header::HOST).and_then(|h| h.to_str().ok());
         // A page of another site could reach this server by a foreign name that resolves to this computer.
         if !host.is_some_and(|host| names.iter().any(|name| name == host)) {
-            return Some("this is not a name of the page");
+            return Some("the page does not answer to this host name");
         }
         let own = |origin: &HeaderValue| {
             let origin = origin.to_str().ok().and_then(|o| o.strip_prefix("http://"));
             origin.is_some_and(|origin| names.iter().any(|name| name == origin))
         };
         match headers.get(header::ORIGIN) {
-            Some(origin) if !own(origin) => return Some("requests of another site are refused"),
+            Some(origin) if !own(origin) => return Some("requests from another site are refused"),
             // Browsers send the origin with every request except plain reads.
-            None if *method != Method::GET => return Some("the origin is missing"),
+            None if *method != Method::GET => return Some("the request has no origin header"),
             _ => {}
         }
         let given = path
@@ -87,7 +87,9 @@ impl Guard {
             .and_then(|rest| rest.split('/').next())
             .unwrap_or("");
         if !same(given.as_bytes(), self.token.as_bytes()) {
-            return Some("the address lacks the secret that centrode studio has printed");
+            return Some(
+                "the address does not contain the secret: use the address that centrode studio printed",
+            );
         }
         None
     }

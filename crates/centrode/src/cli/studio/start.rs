@@ -92,11 +92,11 @@ struct OfferedDesign {
 pub(crate) enum OpenError {
     #[error("give the path of a file whose name ends with .{ENDING}")]
     Ending,
-    #[error("there is no such design to start from")]
+    #[error("there is no such design or template to start from")]
     Pattern,
-    #[error("{name} is there already; give another name")]
+    #[error("{name} exists already; choose another name")]
     Taken { name: String },
-    #[error("cannot make {name}: {error}")]
+    #[error("cannot create {name}: {error}")]
     Make { name: String, error: io::Error },
     #[error("{0}")]
     Open(String),
