@@ -138,7 +138,11 @@ PAGES = {
         Said("the holding features cannot be followed at {} rad", lambda: lost("limit_five_lobe_deep")),
     ],
     "docs/strong-laws.md": [
-        Said("cos 2 phi: fitted teeth with {}, full ones at none of the counts; with {}, where", remedy),
+        Said(
+            "cos 2 phi: fitted teeth work with {}, full ones at none of the counts."
+            " With optimised thickness, pressure angle (23 degrees) and phase, {} are",
+            remedy,
+        ),
         Said("distance {} mm, and of the {} flanks", lambda: [baesel(), 2 * 14]),
     ],
     "docs/adapters.md": [

@@ -164,8 +164,8 @@ FEEDER = [
         "has more than {} (at {}, {}, {}, {} mm)",
         lambda: [least_transmission(best_in_bounds()), *best_in_bounds()],
     ),
-    Said("go together: by {} %.", lambda: 100 * values("feeder-2022")["minimum_widening"]),
-    Said("found within the bounds is {} deg", lambda: least_transmission(best_in_bounds())),
+    Said("are possible together: by {} %.", lambda: 100 * values("feeder-2022")["minimum_widening"]),
+    Said("bounds is {} deg", lambda: least_transmission(best_in_bounds())),
     Said(
         "| deg | {} | {} | {} | {} | {} | {} |",
         lambda: sensitivity(design("feeder-2022").six_bar.lengths, design("feeder-2022").six_bar.pivot),
@@ -352,7 +352,7 @@ BOX = [
     Said("cross every half lead, {} times", lambda: len(design("spiral-shaft-2018").crossings())),
     Said("{} mm at the slow crossings, {} mm at the fast ones", lambda: [gap(SLOW), gap(FAST)]),
     Said(
-        "A straight one 42 mm long needs {} mm of clearance to lie in the bend of {} mm radius",
+        "A straight one 42 mm long needs {} mm of clearance to fit into the bend of {} mm radius",
         lambda: [bend_radius() - sqrt(bend_radius() ** 2 - ((42 - WIDTH) / 2) ** 2), bend_radius()],
     ),
     Said(
@@ -360,7 +360,7 @@ BOX = [
         lambda: sin(radians(12) + GROOVE) / sin(radians(12) - GROOVE),
     ),
     Said(
-        "with kappa = B sin b = {} mm it gives 1 / {} of the acceleration",
+        "With kappa = B sin b = {} mm it gives 1 / {} of the acceleration",
         lambda: [B * sin(LEAN), OMEGA / sin(LEAN)],
     ),
     *(
@@ -377,7 +377,7 @@ BOX = [
     Said("While the pin passes the {} mm over which", lambda: gap(SLOW)),
     Said("So it must be {} mm long, {} deg round the shaft", lambda: [2 * gap(SLOW), round_shaft(2 * gap(SLOW))]),
     Said("at 200 r/min the gap lasts {} ms", lambda: 1000 * radians(round_shaft(gap(SLOW))) / OMEGA),
-    Said("over the slow speed of {} mm a radian", lambda: SLOW),
+    Said("divided by the slow speed of {} mm per radian", lambda: SLOW),
     Said(
         "A groove 2.5 mm wide needs a slider of {} mm, {} deg round the shaft",
         lambda: [2 * gap(SLOW, 2.5), round_shaft(2 * gap(SLOW, 2.5))],
@@ -387,7 +387,7 @@ BOX = [
         lambda: [bent_bar(2 * gap(SLOW, 2.5), s) for s in (SLOW, FAST)],
     ),
     Said(
-        "for the shaft above {} mm at the slow points, {} mm at mean speed, {} mm at the fast ones",
+        "the difference is {} mm at the slow points, {} mm at mean speed, {} mm at the fast ones",
         lambda: [wall_deviation(speed) for speed in (SLOW, MEAN, FAST)],
     ),
     Said(

@@ -305,7 +305,7 @@ FEEDER = [
     ),
     Said("| {} r/min and {} cuttings a minute |", rates),
     Said("the mean is {} |", lambda: (82 + 86 + 80) / 3),
-    Said("but for rounding (below {<} mm/s)", lambda: values("feeder-2022")["tip_speed_ends_max"]),
+    Said("except for rounding (below {<} mm/s)", lambda: values("feeder-2022")["tip_speed_ends_max"]),
     Said("it gives {} deg, where the rocker is at {} deg", rocker_of_other_branch),
     Said("the optimum has {} deg, not", transmission),
     Said("The mean of Table 1 is {}, printed as 83, and {} cuttings", lambda: [(82 + 86 + 80) / 3, rates()[1]]),
@@ -314,8 +314,8 @@ FEEDER = [
 PAGES = {
     "docs/papers.md": [
         Said(
-            "Of {} figures and {} tables, {} agree and {} are shown again without a number to compare. {} are shown in"
-            " part, {} is given, {} differ, and {} are not reproduced.",
+            "Of {} figures and {} tables, {} agree and {} are reproduced without a number to compare. {} are reproduced"
+            " in part, {} is given, {} differ, and {} are not reproduced.",
             counts,
         ),
         *THREE_ARM,
