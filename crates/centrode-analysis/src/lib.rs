@@ -1,9 +1,9 @@
 //! Checks of a mechanism: contact of teeth, clearance, forces, undercut, goals.
 //!
-//! A check returns a [`Report`]: figures with units, and findings with measured value, limit, position in the cycle and a
-//! remedy. The contact analysis shares no code with the generator of the teeth; [`prove`] certifies it for a checker outside.
-//! Bodies are held against each other by parry, in [`interference`] alone. It knows no drawing and no file format, and
-//! changes no design.
+//! A check returns a [`Report`]: figures with units, and findings with measured value, limit, position in the cycle and
+//! remedy. The contact analysis shares no code with the generator of the teeth. [`prove`] writes a certificate of the
+//! contact for an independent checker. Only [`interference`] uses parry, for the distance of bodies.
+//! The crate knows no drawing and no file format, and changes no design.
 
 mod cam;
 mod contact;

@@ -1,9 +1,10 @@
 //! Files, pictures and curves of each family of machine and of machines in general.
 //!
-//! Here is decided which drawings, sheets, solids, tables and models a machine has, and how a plate, a turned part and a
-//! general arrangement are drawn. The bytes are written by `centrode-formats`.
-//! It may not know: checks and searches (`centrode-analysis`), the list of families, the command line, the page's server.
-//! Nothing here touches the disk; a [`Package`] collects files in a bundle.
+//! This crate makes the drawings, sheets, solids, tables and models of each machine. It draws plates, turned parts and
+//! general arrangements. `centrode-formats` writes them in the file formats.
+//! It may not know: checks and searches (`centrode-analysis`), the list of families, the command line, the page's
+//! server.
+//! Nothing here writes to the disk. A [`Package`] collects files in a bundle.
 
 pub mod cam;
 mod cutting;

@@ -1,7 +1,8 @@
-//! Families of machine: the one list of them, and the parts of the lower crates that each binds.
+//! Families of machine: the only list of them, and access to the modules of each family in the lower crates.
 //!
-//! An entry of [`FAMILIES`] makes a [`Mechanism`] of a design file; through it every program checks a machine, draws it, writes
-//! its files and searches a better one without the name of a family. Here, too, a panic becomes an [`InternalFault`].
+//! An entry of [`FAMILIES`] makes a [`Mechanism`] from a design file. Programs use the mechanism to check a machine,
+//! draw it, write its files and search for a better one, independently of its family. This crate also converts a panic
+//! to an [`InternalFault`].
 //! It may not know: the command line, the design page, its server, Python, or how any file is laid out.
 
 mod contact;

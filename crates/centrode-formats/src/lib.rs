@@ -1,8 +1,8 @@
 //! One writer for each file format: DXF, SVG, PDF, STL, STEP, 3MF, CSV, URDF, MJCF; and the layout of drawing sheets.
 //!
-//! Writers are pure: they turn a plain value ([`drawing::Drawing`], [`sheet::Sheet`], a solid, [`model::Model`]) into bytes,
-//! the same bytes every time. Only [`Bundle`], [`write_file`] and [`write_new_file`] touch the disk.
-//! It may not know: mechanisms, gears, machines, families. Of the design file it knows the table `[drawing]` alone
+//! Writers are pure: they convert a plain value ([`drawing::Drawing`], [`sheet::Sheet`], a solid, [`model::Model`]) to
+//! bytes, and equal values give equal bytes. Only [`Bundle`], [`write_file`] and [`write_new_file`] write to the disk.
+//! It may not know: mechanisms, gears, machines, families. Of the design file it knows only the table `[drawing]`
 //! ([`DrawingSpec`](centrode_spec::DrawingSpec), sheet size and projection), which a title block prints.
 
 mod bundle;

@@ -1,6 +1,8 @@
 //! Gears and cams: from a design to exact curves.
 //!
-//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in [`cam`]. It knows no machine of several gears, checks nothing and writes no file.
+//! At the root of the crate are pitch curves and their conjugates, tools, tooth profiles and pairs of gears. Disc cams
+//! and their followers are in [`cam`].
+//! The crate knows no machine of several gears, checks nothing and writes no file.
 
 mod base_tangent;
 mod bore;

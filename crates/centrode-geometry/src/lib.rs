@@ -1,8 +1,9 @@
 //! Plane curves, closed outlines, solids and meshes for machine parts.
 //!
-//! Here live exact plane curves, the outlines made of them, their approximations, and the bodies between outlines.
-//! Five rooms, each of which uses only those before it: `numeric`, `curve`, `region`, `approximation`, `solid`.
-//! This crate may know no gear, cam or machine: it knows curves, not their purpose; it reads and writes no files.
+//! The crate has exact plane curves, outlines made of them, approximations of the outlines, and bodies bounded by
+//! outlines.
+//! There are five modules: `numeric`, `curve`, `region`, `approximation`, `solid`. Each uses only those before it.
+//! This crate may know no gear, cam or machine, and reads and writes no files.
 //! A [`Tolerance`] is the maximum distance between a curve and its approximation. There is no other absolute epsilon.
 //! Lengths are millimetres, angles radians, counter-clockwise positive.
 

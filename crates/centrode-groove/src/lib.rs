@@ -1,9 +1,13 @@
-//! Spiral shafts: the law of a slider that moves back and forth at its own speeds, its groove, and the moving box.
+//! Spiral shafts: the law of a slider that moves back and forth at given speeds, its groove, and the moving box.
 //!
-//! The shaft turns by `theta` and carries the slider along its axis, z. Lengths are mm, angles rad, velocities mm per radian
-//! of shaft turn. After M. L. Zhou et al., "New type of transverse moving box mechanism for pot seedling transplanting
-//! machine", 2018, DOI 10.25165/j.ijabe.20181102.2867; its equations are cited by their numbers, and derived again where
-//! they do not hold. It knows no other machine, checks nothing and writes no file.
+//! The shaft turns by `theta` and moves the slider along its axis, z. Lengths are mm, angles rad, velocities mm per
+//! radian of shaft turn.
+//!
+//! After M. L. Zhou et al., "New type of transverse moving box mechanism for pot seedling transplanting machine", 2018,
+//! DOI 10.25165/j.ijabe.20181102.2867. Its equations are cited by their numbers, and derived again where they are
+//! wrong.
+//!
+//! The crate knows no other machine, checks nothing and writes no file.
 
 mod crossing;
 mod design;

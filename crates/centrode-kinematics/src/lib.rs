@@ -1,7 +1,9 @@
-//! Motion of one input: formulas, transmission functions, linkages, and the links and joints of a machine.
+//! Motion as a function of one input: formulas, transmission functions, linkages, and the links and joints of a
+//! machine.
 //!
-//! A machine is a tree of links whose joints follow transmission functions of the input; poses, closures, meshes and parts
-//! are read from it. It knows no gear tooth, no cam profile and no family of machine, and writes no file.
+//! A machine is a tree of links whose joints follow transmission functions of the input. It gives poses, closures,
+//! meshes and parts.
+//! The crate knows no gear tooth, no cam profile and no family of machine, and writes no file.
 
 pub mod formula;
 pub mod linkage;

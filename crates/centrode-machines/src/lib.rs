@@ -1,7 +1,8 @@
 //! Machines: how bodies, gears, cams and dyads become links and joints.
 //!
-//! The general machine of a design file is in [`machine`]; the published families, with their arm, gear train and six-bar,
-//! in [`three_arm`], [`arm`] and [`feeder`]. It checks nothing, searches nothing and writes no file.
+//! The general machine of a design file is in [`machine`]. The published families, with their arm, gear train and
+//! six-bar, are in [`three_arm`], [`arm`] and [`feeder`].
+//! The crate checks nothing, searches nothing and writes no file.
 
 pub mod arm;
 pub mod feeder;

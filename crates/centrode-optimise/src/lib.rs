@@ -1,9 +1,12 @@
-//! The minimum of a function of numbers under constraints: genetic algorithm, differential evolution, CMA-ES.
+//! Minimisation of a function of several numbers under constraints: genetic algorithm, differential evolution, CMA-ES.
 //!
-//! A [`Problem`] gives bounds and evaluates a point; a [`Search`] improves a population generation by generation. Randomness
-//! comes from the seed and the number of the generation alone, and the points of a generation are drawn before any of them is
-//! evaluated: the same seed gives the same result on any number of cores, and a stored search continues as if it had never
-//! stopped. It knows no gear and no machine.
+//! A [`Problem`] gives bounds and evaluates a point. A [`Search`] improves a population generation by generation.
+//!
+//! Random numbers depend only on the seed and the number of the generation. All points of a generation are drawn before
+//! any of them is evaluated. So a seed gives equal results on any number of cores, and a stored search continues as if
+//! it had not stopped.
+//!
+//! The crate knows no gear and no machine.
 
 mod cma_es;
 mod differential_evolution;

@@ -1,9 +1,10 @@
 //! The design page without a server: its scripts and styles, and the answers to their requests.
 //!
-//! A question and its answer are text: a design file goes in, JSON, a changed design file or HTML comes out ([`Subject`],
-//! [`edited`], [`report`]). The words of the page for each family are here. Whoever serves the page brings HTTP, files, threads.
-//! It may not know: sockets and requests, the command line, folders, Python. It computes nothing of its own but the picture
-//! of a path, before there is a machine.
+//! Requests and answers are text. The input is a design file. The output is JSON, a changed design file or HTML
+//! ([`Subject`], [`edited`], [`report`]). The texts of the page for each family are here. The server of the page
+//! provides HTTP, files and threads.
+//! It may not know: sockets and requests, the command line, folders, Python. The only thing that it computes itself is
+//! the picture of a path for which there is no machine yet.
 
 mod bundle;
 mod design;

@@ -1,7 +1,7 @@
-//! The design file: TOML in, a description of one family of mechanism out.
+//! The design file: converts TOML to the description of a mechanism of one family.
 //!
-//! Keys and their paths, rules that a number can break, faults with line and remedy, drawings, schema. It knows no gear and
-//! no machine: a family adds its keys by [`DesignSpec`].
+//! The crate has keys and their paths, rules for the values of numbers, errors with line and remedy, drawings, and the
+//! schema. It knows no gear and no machine: a family adds its keys by [`DesignSpec`].
 
 pub mod degrees;
 pub mod digits;

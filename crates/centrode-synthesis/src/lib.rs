@@ -1,7 +1,7 @@
 //! From requirements to machines: paths and poses, gears for a required output, and searches for dimensions.
 //!
-//! It may use everything below it, and judges what it found by the checks of the analysis alone. It draws nothing and writes
-//! no file.
+//! The crate may use all crates below it. It evaluates its results only by the checks of the analysis. It draws nothing
+//! and writes no file.
 
 pub mod machine;
 pub mod optimise;

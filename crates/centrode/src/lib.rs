@@ -1,7 +1,8 @@
-//! Non-circular gears, cams and linkages: geometry, proof and shop files.
+//! Non-circular gears, cams and linkages: geometry, proof and files for manufacture.
 //!
-//! One dependency for the whole toolkit: every crate under its own name. The command line, with the local server of the
-//! design page, is in `cli`, behind the feature of that name. It knows no formula: what is computed is computed below.
+//! This crate is the only dependency for the whole toolkit. It re-exports every other crate. The command line, with the
+//! local server of the design page, is in `cli`, behind the feature of that name.
+//! The crate knows no formula: the other crates do all computation.
 
 pub use centrode_analysis as analysis;
 pub use centrode_export as export;

@@ -1,8 +1,8 @@
 //! Forces of a machine: the torque that its input needs, and the forces in joints, teeth and pins.
 //!
-//! Each link's forces and moments balance its inertia (Newton and Euler), link by link from the ends of the tree to the first
-//! link. At a closure, a mesh or a roller contact the unknown force is the one for which the joints that it moves need no
-//! drive of their own. Lengths are mm, masses kg, forces N, torques N mm.
+//! The forces and moments on each link balance its inertia (Newton and Euler). They are computed link by link, from the
+//! ends of the tree to the first link. A closure, a mesh or a roller contact adds an unknown force. Its value is the
+//! one at which the joints that it moves need no drive of their own. Lengths are mm, masses kg, forces N, torques N mm.
 
 mod blocks;
 mod elimination;

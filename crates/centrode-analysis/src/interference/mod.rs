@@ -1,4 +1,4 @@
-//! Clearance of moving bodies over a whole cycle: proven between samples, not only at them.
+//! Clearance of moving bodies over a whole cycle, proven also between the samples.
 
 mod body;
 mod depth;

@@ -1,4 +1,4 @@
-//! The files of a feeder: its links as plates, a simulator model, its motion.
+//! The files of a feeder: its links as plates, a simulator model, and its motion.
 
 mod arrangement;
 mod curves;

@@ -1,5 +1,5 @@
-//! The files of a machine: its parts list and general arrangement, its table of motion, simulator models, and scripts that play
-//! them.
+//! The files of a machine: parts list, general arrangement, table of motion, simulator models, and scripts that play
+//! the models.
 
 mod arrangement;
 mod bodies;

@@ -1,4 +1,4 @@
-//! The files of a composed machine: its bodies as plates, its gears and cams, a simulator model, its motion.
+//! The files of a composed machine: its bodies as plates, its gears and cams, a simulator model, and its motion.
 
 mod curves;
 mod parts;

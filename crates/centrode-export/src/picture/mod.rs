@@ -1,7 +1,7 @@
-//! A mechanism as a picture that moves, with the curves of its cycle.
+//! Moving picture of a mechanism, with the curves of its cycle.
 //!
-//! A [`Picture`] has the data that a browser needs to draw a machine, but no data to compute with: outlines as lines and arcs,
-//! the pose of every link along the cycle. The same assets show it in the local program and in the self-contained report.
+//! A [`Picture`] has the data for drawing: outlines as lines and arcs, and the pose of every link along the cycle. The
+//! browser computes nothing. The local program and the self-contained report show it by the same assets.
 
 mod curves;
 mod path;

@@ -1,4 +1,4 @@
-//! Parts of one thickness: cutting drawing, sheets, solid.
+//! Plates: cutting drawing, sheets and solid of parts with constant thickness.
 
 mod edges;
 mod geometrical;

@@ -1,4 +1,4 @@
-//! Drawing sheets: one layout on paper, ISO 5457, the same for DXF, SVG and PDF.
+//! Drawing sheets: one layout on paper (ISO 5457) for DXF, SVG and PDF.
 
 mod dimension;
 mod draft;

@@ -1,4 +1,4 @@
-//! A gear pair as written: the same words in the file, in Rust and in Python.
+//! The design of a gear pair, with the same keys in the file, in Rust and in Python.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Intermittent (incomplete) gears: a driver with teeth on only an arc, and the motion and rest of its mate.
+//! Intermittent gears: a driver with teeth on an arc of its rim, and the motion and dwell of its mate.
 
 mod cams;
 mod drive;

@@ -1,6 +1,6 @@
 //! Pitch curves: the description of each kind, and the exact curve that it defines.
 //!
-//! A description scaled by `module` and `tooth_count` has the length `pi * module * tooth_count`.
+//! `module` and `tooth_count` in a description scale the curve to the length `pi * module * tooth_count`.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,8 +1,13 @@
-//! Outlines as other curves, each within a tolerance: polygons, arcs, cubics and offsets.
+//! Approximations of outlines, each within a tolerance: polygons, arcs, cubics and offsets.
 //!
-//! Reading order: [`steps`] (longest chords within a tolerance), [`untangle`] and [`flatten`] give polygons; [`smooth_run`]
-//! (an outline between its corners), [`biarc`], [`arc_plan`], [`arc_chains`] and [`arcs`] give arcs, [`polygon_arcs`] the arcs of
-//! a polygon; [`cubics`] and [`offset`] do not depend on these. Uses `numeric`, `curve` and `region`.
+//! Reading order:
+//!
+//! 1. Polygons: [`steps`] (longest chords within a tolerance), [`untangle`] and [`flatten`].
+//! 2. Arcs: [`smooth_run`] (an outline between its corners), [`biarc`], [`arc_plan`], [`arc_chains`] and [`arcs`];
+//!    [`polygon_arcs`] for the arcs of a polygon.
+//! 3. [`cubics`] and [`offset`], which do not depend on the others.
+//!
+//! Uses `numeric`, `curve` and `region`.
 
 mod arc_chains;
 mod arc_plan;

@@ -1,8 +1,16 @@
-//! Single curves: segments of three kinds, bounds on them, and where two of them cross.
+//! Single curves: three kinds of segments, bounds of them, and their crossings.
 //!
-//! Reading order: [`closed_curve`] (the trait of an exact curve), [`poly_segment`] (its polynomial fit), [`segment`] (line, arc
-//! or polynomial), [`bounds`] (a rectangle), [`span`] (a part with proven bounds), [`piece`] (bounds of its arc length),
-//! [`crossings`], [`winding`]; [`bezier_fit`] is the fit of curves in space.
+//! Reading order:
+//!
+//! 1. [`closed_curve`]: the trait of an exact curve.
+//! 2. [`poly_segment`]: its polynomial fit.
+//! 3. [`segment`]: line, arc or polynomial.
+//! 4. [`bounds`]: a rectangle.
+//! 5. [`span`]: a part with proven bounds.
+//! 6. [`piece`]: bounds of its arc length.
+//! 7. [`crossings`] and [`winding`].
+//! 8. [`bezier_fit`]: fit of curves in space.
+//!
 //! Uses `numeric`.
 
 mod bezier_fit;

@@ -1,8 +1,15 @@
-//! Numbers without geometry: roots, extremes, quadrature, series and tolerances, and the two helpers of every long computation.
+//! Numerical methods without geometry: roots, extremes, quadrature, series, tolerances, and two helpers for long
+//! computations.
 //!
-//! Reading order: [`tolerance`], [`precision`] (when two values are equal), [`roots`], [`extreme`] (minima and maxima over an
-//! interval), [`quadrature`], [`chebyshev`], [`antiderivative`]; then [`cancel`] (stop a computation, run jobs on two threads)
-//! and [`recent`] (cache results). Uses no other module.
+//! Reading order:
+//!
+//! 1. [`tolerance`] and [`precision`] (comparison of values).
+//! 2. [`roots`] and [`extreme`] (minima and maxima over an interval).
+//! 3. [`quadrature`], [`chebyshev`] and [`antiderivative`].
+//! 4. [`cancel`]: stop a computation, run jobs on two threads.
+//! 5. [`recent`]: cache of results.
+//!
+//! Uses no other module.
 
 mod antiderivative;
 mod cancel;

@@ -1,9 +1,16 @@
 //! Closed outlines and the regions they enclose.
 //!
-//! Reading order: [`outline`], [`position`] (a point of an outline), [`placement`] (move, circle, polygon), [`moments`] (area,
-//! length, centroid), [`extent`], [`containment`]; then [`hull`] and [`rounded_polygon`] (new outlines), [`convex`] (pieces), the
-//! test [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself; [`bound_tree`] finds near items,
-//! with bounds such as a [`disc`]. Uses `numeric` and `curve`.
+//! Reading order:
+//!
+//! 1. [`outline`], and [`position`] (a point of an outline).
+//! 2. [`placement`]: move, circle, polygon.
+//! 3. [`moments`] (area, length, centroid), [`extent`] and [`containment`].
+//! 4. [`hull`] and [`rounded_polygon`] (new outlines), and [`convex`] (convex pieces).
+//! 5. [`self_crossing`]: a test.
+//! 6. [`loops`]: removal of loops from a chain that crosses itself.
+//! 7. [`bound_tree`]: search for items near each other by bounds such as a [`disc`].
+//!
+//! Uses `numeric` and `curve`.
 
 mod bound_tree;
 mod containment;

@@ -1,7 +1,14 @@
-//! Bodies: extrusions and turned parts, their meshes, exact shells and masses.
+//! Bodies: extrusions and turned parts, with their meshes, exact shells and masses.
 //!
-//! Reading order: [`mesh`], [`triangulation`], [`extrusion`] with its [`opening`], [`mass`]; [`shell`] and [`shell_builder`]
-//! (exact boundaries for CAD), [`turned`] (bodies turned about an axis). Uses every other module.
+//! Reading order:
+//!
+//! 1. [`mesh`] and [`triangulation`].
+//! 2. [`extrusion`] with its [`opening`].
+//! 3. [`mass`].
+//! 4. [`shell`] and [`shell_builder`]: exact boundaries for CAD.
+//! 5. [`turned`]: bodies turned about an axis.
+//!
+//! Uses every other module.
 
 mod error;
 mod extrusion;

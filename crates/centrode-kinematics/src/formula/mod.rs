@@ -1,4 +1,4 @@
-//! Formulas in one variable, read once and evaluated with exact derivatives.
+//! Formulas in one variable, parsed once and evaluated with exact derivatives.
 
 mod lanes;
 mod number;

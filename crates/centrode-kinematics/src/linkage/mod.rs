@@ -1,10 +1,9 @@
 //! Planar linkages as compositions of Assur groups, in closed form with exact derivatives.
 //!
-//! A linkage of one input is a frame, a crank and dyads (groups of two links and three joints) added
-//! one after the other: each closes on the joints built before it. Every dyad has two assembly branches; the
-//! branch is a sign in its closed form, so it cannot jump along the cycle (Erdman and Sandor,
-//! *Mechanism Design*, 1984, chapter 3). Velocity, acceleration and jerk come from Taylor series of the
-//! same closed forms, not from differences.
+//! A linkage with one input has a frame, a crank and dyads (groups of two links and three joints). The dyads are added
+//! one after the other: each closes on the joints before it. Every dyad has two assembly branches. A sign in the closed
+//! form selects the branch, so it cannot change along the cycle (Erdman and Sandor, *Mechanism Design*, 1984, chapter
+//! 3). Velocity, acceleration and jerk come from Taylor series of the closed forms, not from differences.
 
 mod assembly;
 mod closing;

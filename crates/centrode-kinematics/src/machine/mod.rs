@@ -1,7 +1,8 @@
-//! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
+//! The machine: rigid links in a tree of joints.
 //!
-//! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`LinkedMachine`]
-//! and nothing else. Loops are closed when it is made: the joints' laws satisfy them, and the closures remain listed.
+//! Each joint follows a transmission function of the only input. Poses, motion tables, forces, simulator models,
+//! pictures, parts lists, arrangements and interference use only a [`LinkedMachine`]. Its loops are closed when it is
+//! made: the laws of the joints satisfy the closures, which remain listed.
 
 mod arrangement;
 mod bar;

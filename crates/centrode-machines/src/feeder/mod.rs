@@ -1,8 +1,9 @@
 //! The willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an intermittent gear.
 //!
-//! The input is the angle that the intermittent gear has turned since the effector left its position under the store,
-//! rad, counter-clockwise for the crank. Lengths are in mm. Source: Ye et al., "Optimal design and test of picking
-//! mechanism of automatic feeding device for cutting willows", 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
+//! The input is the angle of the intermittent gear, rad, in the direction that turns the crank counter-clockwise. It is
+//! zero when the effector leaves its position under the store. Lengths are in mm. Source: Ye et al., "Optimal design
+//! and test of picking mechanism of automatic feeding device for cutting willows", 2022, DOI
+//! 10.6041/j.issn.1000-1298.2022.05.010.
 
 mod design;
 mod dimension;

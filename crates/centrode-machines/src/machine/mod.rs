@@ -1,11 +1,17 @@
 //! Composed machines: bodies that turn, slide or are fixed, driven by laws of one input and connected by dyads.
 //!
-//! A body has axes of its own. A turning body has its origin on its pin, a sliding body its first axis along its line. The
-//! axes of a dyad's bodies are those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
+//! Each body has its own axes. A turning body has its origin on its pin. A sliding body has its first axis along its
+//! line. The axes of a dyad's bodies are those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 //!
-//! Order of reading: `design` (the file), `build` and `resolve` (from the file to bodies in the order of building), then the
-//! folders `body` (points and contours), `motion` (laws), `dyad`, `gears`, `cams`, `copies`, `load`, `goal` (figures and
-//! obstacles), `hardware` (pins, shafts, plates and the frame).
+//! Reading order:
+//!
+//! 1. `design`: the file.
+//! 2. `build` and `resolve`: from the file to bodies in the order of assembly.
+//! 3. `body`: points and contours.
+//! 4. `motion`: laws.
+//! 5. `dyad`, `gears`, `cams`, `copies` and `load`.
+//! 6. `goal`: figures and obstacles.
+//! 7. `hardware`: pins, shafts, plates and the frame.
 
 mod axis;
 mod body;

@@ -1,4 +1,4 @@
-//! The page on which a machine is made from a path: its requests and answers.
+//! The page that makes a machine from a path: its requests and answers.
 
 mod answer;
 mod cache;

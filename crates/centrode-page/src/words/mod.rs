@@ -1,4 +1,4 @@
-//! The words of a report, for the page and the terminal.
+//! Texts of a report, for the page and the terminal.
 
 mod figures;
 mod findings;

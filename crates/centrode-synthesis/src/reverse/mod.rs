@@ -1,11 +1,11 @@
-//! Synthesis of a machine from the path required of its tip.
+//! Synthesis of a machine from the required path of its tip.
 //!
-//! A carrier turns about a fixed axis and supports an arm, whose tip runs along the path. The carrier turns once per cycle of the
-//! path, and the arm turns once relative to it in the opposite direction, like the planet of a train with a fixed sun and a mean
-//! ratio of 1. The two bars are stretched once and folded once per cycle, so their lengths follow from the path and the axis
-//! alone.
+//! A carrier turns about a fixed axis and supports an arm, whose tip follows the path. Per cycle of the path the
+//! carrier makes one turn, and the arm makes one turn relative to it in the opposite direction. The planet of a train
+//! with a fixed sun and a mean ratio of 1 moves in this manner. The two bars are stretched once and folded once per
+//! cycle, so the path and the axis determine their lengths.
 //!
-//! Also synthesis of the law of a crank from the required output of the machine that it drives: [`Timing`].
+//! The module also has the synthesis of the law of a crank from the required output of its machine: [`Timing`].
 
 mod chain;
 mod csv;

@@ -1,7 +1,7 @@
-//! The command line: `centrode new`, `check`, `export` and the rest.
+//! The command line: `centrode new`, `check`, `export` and the other commands.
 //!
-//! Unlike the rest of the library, this module prints, reads and writes files, and catches signals. It is a whole program behind
-//! one function, which the program `centrode` and the command of the Python package call.
+//! Unlike the rest of the library, this module prints, reads and writes files, and catches signals. It is a whole
+//! program behind one function. The program `centrode` and the command of the Python package call that function.
 
 mod args;
 mod check;

@@ -1,6 +1,6 @@
 //! Points at which the gears touch at one driver angle.
 //!
-//! Read it in this order:
+//! Reading order:
 //!
 //! 1. `meshing`: the pair under analysis, with its search distances and its cache.
 //! 2. `facing_points`: points of two parts with a common normal, by Newton's method.

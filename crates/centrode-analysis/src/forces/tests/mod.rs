@@ -1,4 +1,4 @@
-//! Forces held against closed forms, virtual work and energy.
+//! Comparison of forces with closed forms, virtual work and energy.
 
 mod closed_forms;
 mod picker;

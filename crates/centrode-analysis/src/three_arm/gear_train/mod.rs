@@ -1,4 +1,4 @@
-//! Check of the gears of a three-arm mechanism: every mesh, and the gears that must not touch.
+//! Check of the gears of a three-arm mechanism: every mesh, and the clearance of gears that do not mesh.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

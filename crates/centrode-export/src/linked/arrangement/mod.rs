@@ -1,4 +1,5 @@
-//! The general arrangement of any machine: its figures at one input, with dimensions, item numbers of the parts, and data.
+//! The general arrangement of any machine: its views at one input, with dimensions, item numbers of the parts, and
+//! data.
 
 mod axes;
 mod fits;

@@ -1,4 +1,4 @@
-//! A disc cam as written: the same words in the file, in Rust and in Python.
+//! The design of a disc cam, with the same keys in the file, in Rust and in Python.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
-//! The fork of a transplanting arm: a swinging follower that moves a push rod.
+//! The fork of a transplanting arm: an oscillating follower that moves a push rod.
 //!
-//! The cam is fixed to the carrier. The fork is hinged on the arm, which turns about the cam's axis. Where the cam rises, it
-//! draws the rod back against its spring; where the cam falls, the spring throws the rod out.
+//! The cam is fixed to the carrier. The fork has its pivot on the arm, which turns about the cam's axis. Where the cam
+//! rises, the fork pulls the rod back against its spring. Where the cam falls, the spring pushes the rod out.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;

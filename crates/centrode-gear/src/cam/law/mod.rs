@@ -1,6 +1,6 @@
-//! Motion laws of a follower from rest at 0 to rest at 1 while its input goes from 0 to 1.
+//! Motion laws of a follower: from rest at 0 to rest at 1 while the input goes from 0 to 1.
 //!
-//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name is given next to each.
+//! Names and characteristic values are those of VDI 2143 part 1 (1980). The German name is given with each law.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! A cycle of segments as one periodic motion.
+//! Periodic motion made of the segments of one cycle.
 
 use std::f64::consts::TAU;
 

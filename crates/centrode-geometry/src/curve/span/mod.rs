@@ -1,4 +1,4 @@
-//! Part of a segment with proven bounds, from the convex hull of its Bernstein control points.
+//! A part of a segment with proven bounds, from the convex hull of its Bernstein control points.
 
 mod bernstein;
 mod bounds;

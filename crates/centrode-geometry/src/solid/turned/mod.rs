@@ -1,7 +1,7 @@
 //! Bodies turned about the z axis: cylinders and cones of 45°, with a slot along the axis.
 //!
-//! Reading order: this file (sections, slot, volume), [`round_end`] (where a slot ends half round), [`ring`] and [`boundary`]
-//! (exact faces), [`mesh`].
+//! Reading order: this file (sections, slot, volume), [`round_end`] (half-round ends of a slot), [`ring`] and
+//! [`boundary`] (exact faces), [`mesh`].
 
 mod boundary;
 mod mesh;

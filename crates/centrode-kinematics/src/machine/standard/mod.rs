@@ -1,4 +1,4 @@
-//! Parts that are bought by the number of a standard.
+//! Purchased parts that are designated by a standard.
 
 mod bearing;
 mod key;

@@ -1,4 +1,4 @@
-//! A body as the design file gives it.
+//! Bodies as written in the design file.
 
 pub(super) mod contour;
 pub(super) mod corner;

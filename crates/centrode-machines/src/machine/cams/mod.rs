@@ -1,4 +1,4 @@
-//! Disc cams as the design file gives them.
+//! Disc cams as written in the design file.
 
 pub(super) mod camming;
 pub(super) mod cutting;

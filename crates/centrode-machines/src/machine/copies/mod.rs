@@ -1,4 +1,6 @@
-//! Copies of a chain of bodies, evenly spaced: they are written out, so that the design has no copies any more.
+//! Evenly spaced copies of a chain of bodies.
+//!
+//! The copies are written out as ordinary bodies, so the resulting design has no copies.
 
 pub(super) mod copying;
 mod dyads;

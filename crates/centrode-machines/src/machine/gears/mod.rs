@@ -1,4 +1,4 @@
-//! Gears of pairs and their meshes as the design file gives them.
+//! Gears of pairs and their meshes as written in the design file.
 
 pub(super) mod gearing;
 pub(super) mod mesh;

@@ -1,4 +1,4 @@
-//! Goals as the design file gives them.
+//! Goals as written in the design file.
 
 pub(super) mod clearance_end;
 pub(super) mod figure;

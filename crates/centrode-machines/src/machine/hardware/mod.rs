@@ -1,4 +1,4 @@
-//! Extent to which the hardware around gears and cams is designed.
+//! Hardware around gears and cams: which parts the program designs.
 
 pub(super) mod axis_list;
 pub(super) mod frame;

@@ -1,4 +1,4 @@
-//! A three-arm transplanting mechanism as the design file gives it.
+//! A three-arm transplanting mechanism as written in the design file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

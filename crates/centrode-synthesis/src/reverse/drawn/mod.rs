@@ -1,4 +1,4 @@
-//! A path that is drawn, in an SVG file.
+//! Path from an SVG file.
 
 mod svg;
 

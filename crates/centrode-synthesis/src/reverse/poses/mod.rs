@@ -1,4 +1,4 @@
-//! Synthesis from key poses: positions and directions that the arm must take in order; the path between them is free.
+//! Synthesis from key poses: positions and directions that the arm must take in order. The path between them is free.
 
 mod harmonics;
 mod law;

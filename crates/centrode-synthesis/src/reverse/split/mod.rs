@@ -1,4 +1,4 @@
-//! The total law made by two stages of gears.
+//! Split of the total law into two stages of gears.
 
 mod conjugacy;
 mod fourier;

@@ -1,4 +1,4 @@
-//! Angle of a machine's crank by the input, such that the output of the machine does what is required.
+//! Angle of a machine's crank as a function of the input, such that the output of the machine meets the requirements.
 
 mod free;
 mod order;

@@ -1,4 +1,4 @@
-//! `centrode studio`: the design page, served to the browser of this computer.
+//! `centrode studio`: serves the design page to the browser of this computer.
 
 mod document;
 mod files;
