@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._centrode import Feeder, Gear, GearPair, Mechanism, MovingBox, SixBar, SpiralShaft
+from ._centrode import DiscCam, Feeder, Gear, GearPair, Mechanism, MovingBox, SixBar, SpiralShaft
 from ._contact import Contact
 from ._goal import Goal
 from ._optimised import Optimised
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "animate",
+    "cam",
     "contact",
     "feeder",
     "goals",
@@ -224,6 +225,30 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     clearance.set_ylim(bottom=0)
     clearance.set_xlabel("driver angle, deg")
     clearance.legend(loc="best")
+    return axes
+
+
+def cam(of: DiscCam, axes: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Draw the position, velocity, acceleration and jerk of a cam's follower over one turn of the cam.
+
+    Args:
+        of: Cam to draw.
+        axes: Four axes to draw into; default: a new column of four.
+    """
+    if axes is None:
+        with _matplotlib():
+            from matplotlib import pyplot
+
+        _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
+    theta = np.linspace(0.0, 2.0 * np.pi, 1441)
+    unit = "rad" if of.swings else "mm"
+    quantities = zip(("position", "velocity", "acceleration", "jerk"), ("", "/rad", "/rad²", "/rad³"), strict=True)
+    for ax, values, (name, per) in zip(np.ravel(axes), of.motion(theta).T, quantities, strict=True):
+        ax.plot(np.degrees(theta), values, color=_DRIVER)
+        ax.set_ylabel(f"{name}\n{unit}{per}")
+        ax.axhline(0.0, color="grey", linewidth=0.8, linestyle=":")
+    ax.set(xlim=(0, 360), xlabel="cam angle, deg")
+    ax.set_xticks(range(0, 361, 60))
     return axes
 
 

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import centrode as ct
 import matplotlib as mpl
@@ -84,6 +85,25 @@ def test_other_kinds_of_film_are_refused(pair, tmp_path):
         ct.plot.animate(pair, tmp_path / "mesh.png")
     with pytest.raises(ValueError, match="frames"):
         ct.plot.animate(pair, frames=0)
+
+
+def test_a_cam_has_a_picture_of_position_velocity_acceleration_and_jerk():
+    law = ct.cam.law("polynomial-4567")
+    rise, fall = (make(span=np.pi, lift=20, law=law) for make in (ct.cam.rise, ct.cam.return_))
+    cam = ct.DiscCam(ct.cam.translating_roller(roller_radius=8), [rise, fall], base_radius=35)
+    axes = ct.plot.cam(cam)
+    drawn = [ax.lines[0].get_ydata() for ax in axes]
+    assert [ax.get_ylabel() for ax in axes] == [
+        f"{name}\nmm{per}"
+        for name, per in [("position", ""), ("velocity", "/rad"), ("acceleration", "/rad²"), ("jerk", "/rad³")]
+    ]
+    # Characteristic values of VDI 2143, at the nearest of 720 steps of each stroke.
+    peaks = [np.abs(values).max() * np.pi**k / 20 for k, values in enumerate(drawn)]
+    np.testing.assert_allclose(peaks, [1, 2.1875, 7.5132, 52.5], rtol=2e-5)
+    machine = ct.load(Path(__file__).parents[2] / "tests" / "designs" / "disc-cam.toml")
+    (row,) = {t.name: t for t in machine.check().tables}["cam-slide-motion"].rows.values()
+    rise = 2 * np.pi / 3
+    np.testing.assert_allclose(row, [20 * v / rise**k for k, v in enumerate([1, 2.1875, 7.5132, 52.5])], rtol=2e-5)
 
 
 def test_goals_are_bars_as_long_as_their_progress():

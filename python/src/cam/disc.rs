@@ -111,6 +111,12 @@ impl DiscCam {
         self.cam.name()
     }
 
+    /// Whether the follower swings: its motion is then in rad, otherwise in mm.
+    #[getter]
+    fn swings(&self) -> bool {
+        self.cam.disc().follower().swings()
+    }
+
     /// Radius of the base circle, mm.
     #[getter]
     fn base_radius(&self) -> f64 {

@@ -9,9 +9,22 @@ use crate::{Finding, Report, Severity, Table, Unit};
 /// Maximum pressure angles of a sliding and a swinging follower during the rise, rad. VDI 2142 part 2.
 const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
 
-/// Reports the maximum pressure angles and the radii of every cam, and its findings.
+/// Names and headings of the tables of the motion of followers that slide and of those that swing.
+const MOTIONS: [(&str, &str); 2] = [
+    (
+        "cam-slide-motion",
+        "Maximum motion of the follower of cam, mm per radian of the cam",
+    ),
+    (
+        "cam-swing-motion",
+        "Maximum motion of the follower of cam, rad per radian of the cam",
+    ),
+];
+
+/// Reports the maximum motion of the follower, the maximum pressure angles and the radii of every cam, and its findings.
 pub(super) fn cams(composed: &Machine, report: &mut Report) {
     let (mut angles, mut radii) = (Vec::new(), Vec::new());
+    let mut motions = [Vec::new(), Vec::new()];
     for cam in composed.cams() {
         let disc = cam.disc();
         let limits = disc.limits();
@@ -23,6 +36,10 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
         radii.push((cam.name.clone(), vec![minimum, maximum, convex, concave]));
         thin_roller(composed, cam, report);
         let swings = disc.follower().swings();
+        let peaks = disc.peaks();
+        let peaks = [peaks.lift, peaks.velocity, peaks.acceleration, peaks.jerk];
+        let row = peaks.map(|peak| peak.value).to_vec();
+        motions[usize::from(swings)].push((cam.name.clone(), row));
         let checked = CheckedCam {
             part: &cam.name,
             pressure_angle: PRESSURE_ANGLES[usize::from(swings)],
@@ -42,6 +59,11 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
             input: &input,
         };
         checked.report(&limits, report);
+    }
+    for (rows, (name, heading)) in motions.into_iter().zip(MOTIONS) {
+        let columns = ["position", "velocity", "acceleration", "jerk"];
+        let table = Table::new(name, heading, Unit::Number);
+        report.table(table.columns(columns).rows(rows));
     }
     report.table(
         Table::new(

@@ -10,8 +10,8 @@ use crate::picture::Curve;
 const SAMPLES: u32 = 720;
 const MOST: u32 = 2880;
 
-/// Angle of every body along the cycle, position and speed of those that slide, pressure angle of every cam, and the minimum
-/// transmission angle of all dyads, where there are any.
+/// Angle of every body along the cycle, position and speed of those that slide, pressure angle and motion of the follower of
+/// every cam, and the minimum transmission angle of all dyads, if there are any.
 #[must_use]
 pub fn curves(composed: &Machine) -> Vec<Curve> {
     let samples = MOST.min(SAMPLES * composed.design().input.turns);
@@ -41,7 +41,21 @@ fn names(composed: &Machine) -> Vec<(Cow<'static, str>, &'static str)> {
         ]
     });
     let cams = composed.cams().iter();
-    let cams = cams.map(|cam| (format!("Pressure angle of {}", cam.name), "°"));
+    let cams = cams.flat_map(|cam| {
+        let units = match cam.disc().follower().swings() {
+            true => ["°", "°/s", "°/s²", "°/s³"],
+            false => ["mm", "mm/s", "mm/s²", "mm/s³"],
+        };
+        let of = |words: &str, unit| (format!("{words} of {}", cam.name), unit);
+        let [s, v, a, j] = units;
+        [
+            of("Pressure angle", "°"),
+            of("Follower position", s),
+            of("Follower velocity", v),
+            of("Follower acceleration", a),
+            of("Follower jerk", j),
+        ]
+    });
     let dyads = (!composed.dyads().is_empty()).then(|| ("Minimum transmission angle".into(), "°"));
     let all = angles.chain(slides).chain(cams).chain(dyads);
     all.map(|(chart, unit)| (chart.into(), unit)).collect()
@@ -68,9 +82,21 @@ fn row(composed: &Machine, input: f64) -> Vec<f64> {
         let law = laws[body].unwrap_or_default();
         row.extend([law.position, law.velocity * composed.speed()]);
     }
-    row.extend(composed.cams().iter().map(|cam| {
-        let contact = cam.disc().contact(cam.turn(input).position);
-        contact.pressure_angle.to_degrees()
+    row.extend(composed.cams().iter().flat_map(|cam| {
+        let turn = cam.turn(input);
+        let contact = cam.disc().contact(turn.position);
+        let motion = contact.motion.after(&turn);
+        let (scale, speed) = match cam.disc().follower().swings() {
+            true => (1_f64.to_degrees(), composed.speed()),
+            false => (1.0, composed.speed()),
+        };
+        [
+            contact.pressure_angle.to_degrees(),
+            scale * motion.position,
+            scale * motion.velocity * speed,
+            scale * motion.acceleration * speed.powi(2),
+            scale * motion.jerk * speed.powi(3),
+        ]
     }));
     if !composed.dyads().is_empty() {
         let angles = composed.transmission_angles(input).into_iter();

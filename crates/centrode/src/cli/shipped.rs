@@ -9,7 +9,7 @@ macro_rules! designs {
 }
 
 /// Name and text of every shipped design, by family.
-pub(crate) const SHIPPED: [(&str, &str); 26] = designs!(
+pub(crate) const SHIPPED: [(&str, &str); 28] = designs!(
     "circular-pair",
     "cubic-pair",
     "elliptic-pair-2018",
@@ -30,8 +30,10 @@ pub(crate) const SHIPPED: [(&str, &str); 26] = designs!(
     "composed-box",
     "composed-feeder",
     "composed-three-arm",
+    "disc-cam",
     "index-table",
     "jansen-leg",
+    "klann-leg",
     "peaucellier-cell",
     "press",
     "two-arm",

@@ -38,8 +38,9 @@ impl Machine {
             return None;
         }
         let roller = self.points.get(name).and_then(|points| points.get(ROLLER));
-        let at = roller.map_or_else(Point::origin, |roller| roller.at);
-        let first = self.pushed(cam, [curve, follower], 0.0).0;
+        let roller = roller.map(|roller| roller.at);
+        let at = roller.unwrap_or_else(Point::origin);
+        let first = self.pushed(cam, [curve, follower], roller, 0.0).0;
         let near =
             move |angle: f64| first + (angle - first) - TAU * ((angle - first) / TAU).round();
         // Both laws of a contact line are evaluated at the same inputs.
@@ -48,7 +49,7 @@ impl Machine {
             let (own, last) = (Arc::clone(own), Arc::clone(&last));
             let at = move |input: f64| {
                 let line = last.get(&input.to_bits(), || {
-                    let pushed = own.pushed(&own.cams[index], [curve, follower], input);
+                    let pushed = own.pushed(&own.cams[index], [curve, follower], roller, input);
                     (near(pushed.0), pushed.1)
                 });
                 MotionJet::at_rest(of(line))
@@ -69,8 +70,14 @@ impl Machine {
     }
 
     /// Direction (rad) in which a cam pushes, in the follower's axes, and the moment of a unit force about the follower's
-    /// origin, mm.
-    fn pushed(&self, cam: &MachineCam, [curve, follower]: [usize; 2], input: f64) -> (f64, f64) {
+    /// origin, mm. The force on a roller goes through its centre, in the follower's axes.
+    fn pushed(
+        &self,
+        cam: &MachineCam,
+        [curve, follower]: [usize; 2],
+        roller: Option<Point>,
+        input: f64,
+    ) -> (f64, f64) {
         let disc = cam.disc();
         let axis = self.place(curve, cam.at, input);
         let gamma = self.angle(curve, input).position + cam.mount;
@@ -84,8 +91,11 @@ impl Machine {
         };
         let touched = disc.contact(disc.rotation().sign() * (gamma - delta));
         let turn = |angle: f64, v: Vector| Rotation2::new(angle) * v;
-        let at = turn(-own, axis + turn(gamma, touched.point.coords) - origin);
         let along = turn(gamma - own, touched.normal);
+        let at = roller.map_or_else(
+            || turn(-own, axis + turn(gamma, touched.point.coords) - origin),
+            |roller| roller.coords,
+        );
         (along.y.atan2(along.x), at.perp(&along))
     }
 }
