@@ -43,7 +43,7 @@ def test_what_the_readme_shows_is_what_comes_out(tmp_path):
     text = (ROOT / "README.md").read_text()
     run = blocks.Run(ROOT / "README.md", tmp_path, blocks.BINARY, slow=False)
     run.run()
-    assert run.ran == 8
+    assert run.ran == 9
     assert len(text.splitlines()) <= 120
     for link in re.findall(r"\]\(([^)#:]+)\)", text):
         assert (ROOT / link).exists(), link

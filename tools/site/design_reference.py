@@ -19,10 +19,9 @@ WORDS = r"(?<=[ ,(])(mm/rad|mm/s|mm|kg/m\^3|kg/m³|N mm|N/mm|N|kg|m/s\^2|m/s²|r
 
 
 def families(binary: Path) -> list[str]:
-    """Names of all families, as `centrode new` takes them."""
-    told = subprocess.run([binary, "new", "--help"], check=True, capture_output=True, text=True).stdout
-    listed = re.search(r"possible values: ([^\]]*)\]", told)[1]
-    return [word.strip() for word in listed.split(",")]
+    """Names of all families: in the list of `centrode new`, shipped designs are indented."""
+    listed = subprocess.run([binary, "new"], check=True, capture_output=True, text=True).stdout
+    return [line.split()[0] for line in listed.splitlines() if line and not line.startswith(" ")]
 
 
 def make(pages: Path, binary: Path) -> list[str]:

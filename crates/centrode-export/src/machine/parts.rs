@@ -64,10 +64,11 @@ fn plate(
     quantity: usize,
 ) -> Option<Plate> {
     let spec = &composed.design().plates;
-    // A link's plate is the first of its solids.
+    // A link's plate is the first of its solids, if it has one: then it is a part.
+    let name = &composed.bodies()[body].name;
+    machine.parts.iter().find(|part| part.name == *name)?;
     let solid = plates(machine, body).first()?;
     let pins = composed.pin_holes(body)?;
-    let name = &composed.bodies()[body].name;
     let [guide, block] = Machine::GUIDE_FIT;
     let guided = composed.guided(body);
     let mut holes = holes(composed, body, solid, pins);

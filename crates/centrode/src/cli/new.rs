@@ -30,9 +30,9 @@ pub(crate) fn run(command: &New, out: &mut impl Write) -> Result<Status, Failure
 fn list(out: &mut impl Write) -> std::io::Result<()> {
     for family in FAMILIES.0 {
         let design = &family.design;
-        writeln!(out, "{:<24}{}", design.word, design.about)?;
+        writeln!(out, "{:<25}{}", design.word, design.about)?;
         for (name, title) in shipped_of(design.word) {
-            writeln!(out, "  {name:<22}{title}")?;
+            writeln!(out, "  {name:<23}{title}")?;
         }
     }
     Ok(())

@@ -139,7 +139,7 @@ fn bad_files_are_refused() {
         3,
     );
     refused(b"", &["empty"], 1);
-    refused(&[b'x'; 10_000_000], &["at most 1048576"], 1);
+    refused(&[b'x'; 10_000_000], &["is 1048576"], 1);
     refused(b"family = \"gear-pair\"\nname = \"\xff\"\n", &["UTF-8"], 2);
 }
 

@@ -156,7 +156,7 @@ fn a_loop_of_round_gears_may_be_off_by_whole_pitches() {
             assert!(made.is_ok(), "{teeth} {degrees}: {made:?}");
         } else {
             let found = refused(&text);
-            let stated = format!("gears a and d are {off:.6} deg off their mesh");
+            let stated = format!("gears a and d {off:.6} deg off their mesh");
             assert!(found.contains(&stated), "{teeth} {degrees}: {found}");
         }
     }
