@@ -377,6 +377,8 @@ class DiscCam:
     @property
     def name(self) -> str: ...
     @property
+    def swings(self) -> bool: ...
+    @property
     def base_radius(self) -> float: ...
     @property
     def start_angle(self) -> float: ...
@@ -506,6 +508,7 @@ class Mechanism:
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
         layers: _Layers = "cut",
+        kerf: _Real | None = None,
     ) -> dict[str, bytes]: ...
     def export(
         self,
@@ -517,6 +520,7 @@ class Mechanism:
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
         layers: _Layers = "cut",
+        kerf: _Real | None = None,
         force: bool = False,
     ) -> list[Path]: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -699,6 +703,9 @@ class GearPair(Mechanism):
         driver_tool: Rack | Shaper | None = None,
         driven_tool: Rack | Shaper | None = None,
         tip_shortening: Literal["keep-clearance", "none"] | _Real = "keep-clearance",
+        housing_gap: _Real | None = None,
+        housing_wall: _Real = 10.0,
+        kerf: _Real = 0.0,
         drawing: DrawingSpec | None = None,
         name: str = "gear-pair",
         title: str = "",

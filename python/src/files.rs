@@ -6,6 +6,7 @@ use centrode::family::PartName;
 use centrode_export::Options;
 use centrode_formats::{Bundle, Format, Purpose, write_file};
 use centrode_geometry::Tolerance;
+use centrode_spec::CutSpec;
 use pyo3::prelude::{Bound, FromPyObject, PyResult, Python, pyfunction};
 use pyo3::types::{PyBytes, PyDict, PyDictMethods};
 
@@ -63,11 +64,17 @@ pub(crate) fn parts(names: Option<Vec<String>>, known: &[PartName]) -> Answer<Op
 pub(crate) fn options(
     tolerance: Tolerance,
     [dxf_version, dxf_curves, layers]: [&str; 3],
+    kerf: Option<f64>,
 ) -> Answer<Options> {
     let mut options = Options::new(tolerance);
     options.dxf_version = Word::of("dxf_version", dxf_version)?;
     options.dxf_curves = Word::of("dxf_curves", dxf_curves)?;
     options.layers = Word::of("layers", layers)?;
+    CutSpec {
+        kerf: kerf.unwrap_or(0.0),
+    }
+    .validate()?;
+    options.kerf = kerf;
     Ok(options)
 }
 

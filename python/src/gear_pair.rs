@@ -71,6 +71,11 @@ const FARTHEST: f64 = 1e6;
 ///     driven_tool: Tool of the driven gear, with the same pressure angle; default: `tool`.
 ///     tip_shortening: Change of every addendum: "keep-clearance" keeps the clearance given by the tool, "none", or a
 ///         coefficient in modules, negative for shorter teeth.
+///     housing_gap: Gap between the tips and the chamber of a flow meter or pump, and between the gears and each cover, mm;
+///         default: no housing.
+///     housing_wall: Thickness of the wall around the chamber, mm.
+///     kerf: Width of the cut that cuts both gears from a plate, mm. The check then includes the material that the cut leaves.
+///         Cutting files contain the path of its middle.
 ///     drawing: Title block and layout of the drawing sheets.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
@@ -114,7 +119,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, **keywords), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, **keywords), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', housing_gap=None, housing_wall=10.0, kerf=0.0, drawing=None, name='gear-pair', title='')")]
     fn new(
         py: Python<'_>,
         pitch: PyRef<'_, Pitch>,
@@ -129,6 +134,8 @@ impl GearPair {
         fill!(call, design.driver, "driver.": driver_dedendum = dedendum, driver_tool = tool, driver = body);
         fill!(call, design.driven, "driven.": driven_shift = shift, driven_addendum = addendum);
         fill!(call, design.driven, "driven.": driven_dedendum = dedendum, driven_tool = tool, driven = body);
+        fill!(call, design.housing, "housing.": housing_gap = gap, housing_wall = wall);
+        fill!(call, design.cut, "cut.": kerf);
         call.end()?;
         Self::made(py, design)
     }

@@ -91,3 +91,59 @@ def test_round_holes_are_circles():
     frame = machine.files(formats="laser", parts=["frame"])["frame.dxf"]
     kinds = {entity.dxf.layer: entity.dxftype() for entity in opened(frame).modelspace()}
     assert kinds == {"PROFILE": "LWPOLYLINE", "HOLE": "CIRCLE"}
+
+
+def contours(contents):
+    return [(entity.dxf.layer, exactly(entity)) for entity in opened(contents).modelspace()]
+
+
+@pytest.mark.parametrize("kerf", [0.15, 1.0, 4.0])
+@pytest.mark.parametrize("name", ["elliptic-pair-2018", "lobed-pair-2-1", "press"])
+def test_a_kerf_moves_contours_as_polygons_do(name, kerf):
+    design = next(design for design in DESIGNS if design.stem == name)
+    machine = ct.load(design)
+    plain = machine.files(formats=["dxf"], tolerance=1e-5)
+    moved = machine.files(formats=["dxf"], tolerance=1e-5, kerf=kerf)
+    notes = moved.pop("cutting.txt").decode()
+    assert f"Width of the cut (kerf): {kerf:g} mm" in notes
+    parts = [name for name in moved if moved[name] != plain[name]]
+    assert parts
+    for part in parts:
+        assert part.removesuffix(".dxf") + ":" in notes
+        for (layer, exact), (other, path) in zip(contours(plain[part]), contours(moved[part]), strict=True):
+            sign = {"PROFILE": 1, "HOLE": -1}[layer]
+            polygon = exact.buffer(sign * kerf / 2, quad_segs=400)
+            # A cut that does not enter a gap leaves the pocket behind it.
+            shell = Polygon(polygon.exterior) if polygon.geom_type == "Polygon" else polygon
+            assert other == layer
+            assert path.hausdorff_distance(shell) < 1e-4
+            assert {entity.dxftype() for entity in opened(moved[part]).modelspace()} <= {"LWPOLYLINE", "CIRCLE"}
+
+
+def test_a_cut_wider_than_a_hole_is_refused():
+    machine = ct.load(next(design for design in DESIGNS if design.stem == "elliptic-pair-2018"))
+    with pytest.raises(ct.ExportError, match="driver cannot be cut with a kerf of 18 mm"):
+        machine.files(formats=["dxf"], kerf=18)
+    with pytest.raises(ct.DesignError, match="kerf"):
+        machine.files(formats=["dxf"], kerf=-0.1)
+
+
+def test_the_check_of_a_kerf_meshes_what_the_cut_leaves():
+    def pair(kerf):
+        pitch = ct.pitch.ellipse(eccentricity=0.4, module=2, tooth_count=21)
+        return ct.GearPair(pitch, addendum="fitted", backlash=0.1, kerf=kerf)
+
+    assert "cut_backlash_min" not in pair(0).check().values
+    fine = pair(1.0).check()
+    assert fine.values["cut_backlash_min"] == fine.values["normal_backlash_min"]
+    assert fine.values["cut_fillet_clearance_min"] == fine.values["fillet_clearance_min"]
+    assert "uncut-corner" not in {finding.rule for finding in fine.findings}
+
+    coarse = pair(2.5).check()
+    found = {finding.rule: finding for finding in coarse.findings}
+    # The fillets have a radius of 1.07 mm or more: here the cut has one of 1.25 mm.
+    assert 0 < found["uncut-corner"].measured < 0.5
+    lost = fine.values["fillet_clearance_min"] - coarse.values["cut_fillet_clearance_min"]
+    assert 0 < lost <= found["uncut-corner"].measured + 1e-6
+    assert ct.loads(pair(2.5).to_toml()).check().values == coarse.values
+    assert "tip-interference" in {finding.rule for finding in pair(3.0).check().findings}

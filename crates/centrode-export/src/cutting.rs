@@ -1,6 +1,9 @@
 //! Layers of a part to cut.
 
-use centrode_formats::drawing::{Color, Drawing, LineType};
+use std::fmt::Write as _;
+
+use centrode_formats::drawing::{Color, Drawing, EntityShape, LineType};
+use centrode_geometry::{LoopError, Tolerance, UncutCorner};
 
 use crate::Layers;
 
@@ -31,4 +34,64 @@ pub(crate) fn file(mut drawing: Drawing, layers: Layers) -> Drawing {
         }
     }
     drawing
+}
+
+/// Moves each contour to the path of the middle of a cut as wide as `kerf`, mm: outside the profile, inside holes. Returns the
+/// corners that the cut does not reach.
+pub(crate) fn along_the_cut(
+    drawing: &mut Drawing,
+    kerf: f64,
+    tolerance: Tolerance,
+) -> Result<Vec<UncutCorner>, LoopError> {
+    let mut uncut = Vec::new();
+    for entity in &mut drawing.entities {
+        let offset = match &*entity.layer {
+            PROFILE => 0.5 * kerf,
+            HOLE => -0.5 * kerf,
+            _ => continue,
+        };
+        match &mut entity.shape {
+            EntityShape::Contour(outline) => {
+                let path = outline.cutter_path(offset, tolerance)?;
+                *outline = path.path;
+                uncut.extend(path.uncut);
+            }
+            EntityShape::Circle { radius, .. } => {
+                *radius += offset;
+                if *radius <= tolerance.mm() {
+                    return Err(LoopError::Everywhere);
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(uncut)
+}
+
+/// Text that goes with cutting files along the middle of a cut: its width, and the corners that it does not reach, part by
+/// part.
+pub(crate) fn notes(kerf: f64, parts: &[(String, Vec<UncutCorner>)]) -> String {
+    let mut text = format!(
+        "Width of the cut (kerf): {kerf} mm\nContours are the path of its middle: {} mm outside each part, inside each hole.\n",
+        0.5 * kerf
+    );
+    for (part, uncut) in parts {
+        let thickest = uncut
+            .iter()
+            .map(|corner| corner.thickness)
+            .fold(0.0, f64::max);
+        // Writing to a string cannot fail.
+        let _ = match uncut.len() {
+            0 => writeln!(text, "\n{part}: every corner is reached"),
+            count => writeln!(
+                text,
+                "\n{part}: up to {thickest:.4} mm remain in {count} corners narrower than the cut\n{:>12} {:>12} {:>12}",
+                "x, mm", "y, mm", "remains, mm"
+            ),
+        };
+        for UncutCorner { point, thickness } in uncut {
+            let _ = writeln!(text, "{:12.4} {:12.4} {thickness:12.4}", point.x, point.y);
+        }
+    }
+    text
 }

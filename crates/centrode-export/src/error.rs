@@ -4,7 +4,7 @@ use centrode_formats::{
     BundleError, Format, csv::TableError, dxf::DxfError, mjcf::MjcfError, pdf::PdfError,
     sheet::SheetError, step::StepError, threemf::PackageError, urdf::UrdfError,
 };
-use centrode_geometry::SolidError;
+use centrode_geometry::{LoopError, SolidError};
 use thiserror::Error as Explained;
 
 /// Why the files of a machine could not be made.
@@ -63,6 +63,16 @@ pub enum ExportError {
         part: String,
         /// Why.
         source: SolidError,
+    },
+    /// A cut is too wide for a part.
+    #[error("the {part} cannot be cut with a kerf of {kerf} mm: {source}; give a narrower kerf")]
+    Kerf {
+        /// Name of the part.
+        part: String,
+        /// Width of the cut, mm.
+        kerf: f64,
+        /// Reason of the geometry.
+        source: LoopError,
     },
     /// The drawing sheets of a part cannot be laid out.
     #[error("{part} drawing: {source}")]

@@ -14,6 +14,8 @@ pub struct Options {
     pub dxf_curves: dxf::Curves,
     /// Layers of the cutting files.
     pub layers: Layers,
+    /// Width of the cut, mm, for which the contours of cutting files are moved; default: that of the design, otherwise 0.
+    pub kerf: Option<f64>,
     /// How the drawing sheets are laid out.
     pub sheet: SheetOptions,
     /// Parts for which drawings, sheets, solids and tables are written, by the names of their files; default: all. Models and
@@ -32,6 +34,7 @@ impl Options {
             dxf_version: dxf::Version::default(),
             dxf_curves: dxf::Curves::default(),
             layers: Layers::default(),
+            kerf: None,
             sheet: SheetOptions::default(),
             parts: None,
             keep_solids: false,

@@ -1,5 +1,7 @@
 mod solids;
 
+use std::cell::Cell;
+
 use centrode_formats::{
     Bundle, Format,
     csv::{self, Column},
@@ -9,7 +11,7 @@ use centrode_formats::{
     sheet::Sheet,
     svg,
 };
-use centrode_geometry::Tolerance;
+use centrode_geometry::{Tolerance, UncutCorner};
 use centrode_kinematics::machine::LinkedMachine;
 
 use crate::{
@@ -45,10 +47,20 @@ pub struct Package<'a> {
     known: Vec<String>,
     /// Sheets of every part that has a PDF.
     book: Vec<(String, Vec<Sheet>)>,
+    /// Width of the cut for which cutting files are made, mm.
+    kerf: f64,
+    /// Corners of each part that the cut does not reach.
+    uncut: Vec<(String, Vec<UncutCorner>)>,
 }
 
 /// Name of the PDF of all sheets.
 const BOOK: &str = "sheets.pdf";
+
+/// Name of the text about the cut.
+const CUTTING: &str = "cutting.txt";
+
+/// Accuracy of the path of a cut, as a share of the tolerance: its error then changes none of the tolerance's digits.
+const PATH: f64 = 1e-4;
 
 impl<'a> Package<'a> {
     /// A package without files of a kind of machine (with its article) and the design's name and title.
@@ -69,7 +81,16 @@ impl<'a> Package<'a> {
             bundle: Bundle::default(),
             known: Vec::new(),
             book: Vec::new(),
+            kerf: options.kerf.unwrap_or(0.0),
+            uncut: Vec::new(),
         }
+    }
+
+    /// Sets the width of the cut of the design, mm, used if the options have none.
+    #[must_use]
+    pub(crate) fn kerf(mut self, kerf: f64) -> Self {
+        self.kerf = self.options.kerf.unwrap_or(kerf);
+        self
     }
 
     /// How files are written.
@@ -187,8 +208,24 @@ impl<'a> Package<'a> {
         part: &str,
         make: impl Fn(Curves) -> Result<Drawing, ExportError>,
     ) -> Result<(), ExportError> {
-        let layers = self.options.layers;
-        self.drawing(part, |curves| Ok(cutting::file(make(curves)?, layers)))
+        let (layers, kerf, tolerance) = (self.options.layers, self.kerf, self.tolerance());
+        let uncut = Cell::new(None);
+        self.drawing(part, |curves| {
+            let mut drawing = cutting::file(make(curves)?, layers);
+            if kerf > 0.0 {
+                let found = cutting::along_the_cut(&mut drawing, kerf, tolerance.scaled(PATH));
+                let named = |source| ExportError::Kerf {
+                    part: part.to_owned(),
+                    kerf,
+                    source,
+                };
+                uncut.set(Some(found.map_err(named)?));
+            }
+            Ok(drawing)
+        })?;
+        let name = self.name_of(part);
+        self.uncut.extend(uncut.take().map(|found| (name, found)));
+        Ok(())
     }
 
     /// Offers the drawing sheets of a part.
@@ -329,6 +366,7 @@ impl<'a> Package<'a> {
     ) -> Result<(), ExportError> {
         let mut inner = Package::new(self.machine, name, title, &self.formats, self.options);
         inner.prefix = prefix;
+        inner.kerf = self.kerf;
         inner
             .formats
             .retain(|format| !matches!(format, Format::Urdf | Format::Mjcf));
@@ -336,6 +374,7 @@ impl<'a> Package<'a> {
         inner.known.retain(|part| !self.known.contains(part));
         self.known.append(&mut inner.known);
         self.book.append(&mut inner.book);
+        self.uncut.append(&mut inner.uncut);
         Ok(self.bundle.append(inner.bundle)?)
     }
 
@@ -361,6 +400,10 @@ impl<'a> Package<'a> {
     /// cannot be written.
     pub fn finish(mut self) -> Result<Bundle, ExportError> {
         self.bind()?;
+        if !self.uncut.is_empty() {
+            let notes = cutting::notes(self.kerf, &self.uncut);
+            self.file(CUTTING, notes.into_bytes())?;
+        }
         let required = self.options.parts.iter().flatten();
         match required.into_iter().find(|part| !self.known.contains(part)) {
             None => Ok(self.bundle),

@@ -91,6 +91,10 @@ impl Mechanism for GearPair {
         pitch_overlap(self).map(|finding| finding.message)
     }
 
+    fn with_kerf(&self, kerf: f64) -> Option<Arc<dyn Mechanism>> {
+        Some(Arc::new(self.with_kerf(kerf)))
+    }
+
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
         Ok(vec![(self.name().to_owned(), Arc::new(self.clone()))])
     }
@@ -138,6 +142,7 @@ impl Resolved for GearPair {
     const PARTS: &'static [PartName] = &[
         PartName::new("driver", "Driver of a gear pair"),
         PartName::new("driven", "Driven gear of a gear pair"),
+        PartName::new("housing", "Housing of a flow meter or pump"),
         PartName::ASSEMBLY,
     ];
 

@@ -60,6 +60,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         None
     }
 
+    /// The mechanism cut with another kerf, mm, for a check of what remains; `None` if the family's check knows no kerf.
+    fn with_kerf(&self, _kerf: f64) -> Option<Arc<dyn Mechanism>> {
+        None
+    }
+
     /// Pairs of gears that mesh all along the cycle, each once with its name; empty in a family without such pairs.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ mod solid;
 #[cfg(test)]
 mod test_shapes;
 
-pub use approximation::Sample;
+pub use approximation::{CutterPath, Sample, UncutCorner};
 pub use curve::{
     Arc, BezierFit, Bounds, CrossingError, Curve, FittedSpan, Jet, PolySegment, Segment,
     SegmentJet, SegmentRange, Span, SpanBounds,

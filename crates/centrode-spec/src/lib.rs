@@ -3,6 +3,7 @@
 //! The crate has keys and their paths, rules for the values of numbers, errors with line and remedy, drawings, and the
 //! schema. It knows no gear and no machine: a family adds its keys by [`DesignSpec`].
 
+mod cut;
 pub mod degrees;
 pub mod digits;
 mod drawing;
@@ -18,6 +19,7 @@ mod schema;
 mod text;
 mod word;
 
+pub use cut::CutSpec;
 pub use digits::shortened;
 pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use family::{Design, DesignFamily, DesignSpec};

@@ -89,10 +89,11 @@ impl Mechanism {
         parts: Option<Vec<String>>,
         tolerance: Option<f64>,
         written: [&str; 3],
+        kerf: Option<f64>,
     ) -> Answer<Bundle> {
         let (formats, usual) = files::formats(formats, &Format::ALL)?;
         let tolerance = within(tolerance.unwrap_or(usual), self.0.accuracy())?;
-        let mut options = files::options(tolerance, written)?;
+        let mut options = files::options(tolerance, written, kerf)?;
         options.parts = files::parts(parts, self.family()?.parts)?;
         Ok(self.ask(py, move |machine| {
             if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {

@@ -327,7 +327,7 @@ impl Mechanism {
     /// ['pin.stl', 'shaft.stl', 'slider.stl']
     /// >>> sorted(ct.Feeder.from_toml(ct.template("feeder")).files(formats=["stl"]))[:2]
     /// ['coupler.stl', 'crank.stl']
-    #[pyo3(signature = (*, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut"))]
+    #[pyo3(signature = (*, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut", kerf=None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn files<'py>(
         &self,
@@ -338,9 +338,10 @@ impl Mechanism {
         dxf_version: &str,
         dxf_curves: &str,
         layers: &str,
+        kerf: Option<f64>,
     ) -> Answer<Bound<'py, PyDict>> {
         let written = [dxf_version, dxf_curves, layers];
-        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        let bundle = self.bundle(py, formats, parts, tolerance, written, kerf)?;
         Ok(files::contents(py, &bundle)?)
     }
 
@@ -362,6 +363,8 @@ impl Mechanism {
     ///     dxf_curves: "arcs", "splines" or "chords" (straight lines within the tolerance).
     ///     layers: "cut", only the contours to cut; or "all", in drawings of parts also reference curves, which do not
     ///         plot.
+    ///     kerf: Width of the cut, mm: moves the contours of the cutting files outwards by half of it, and holes inwards;
+    ///         default: that of the design, otherwise 0.
     ///     force: Whether to replace also files in the directory that are not from an export, or that were changed since.
     ///
     /// Raises:
@@ -373,7 +376,7 @@ impl Mechanism {
     /// >>> with tempfile.TemporaryDirectory() as directory:
     /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
     /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
-    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut", force=false))]
+    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut", kerf=None, force=false))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn export(
         &self,
@@ -385,10 +388,11 @@ impl Mechanism {
         dxf_version: &str,
         dxf_curves: &str,
         layers: &str,
+        kerf: Option<f64>,
         force: bool,
     ) -> Answer<Vec<PathBuf>> {
         let written = [dxf_version, dxf_curves, layers];
-        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        let bundle = self.bundle(py, formats, parts, tolerance, written, kerf)?;
         files::written(py, bundle, directory, force)
     }
 

@@ -47,6 +47,23 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         ],
     },
     FigureGroup {
+        heading: "After cutting",
+        columns: &["minimum", "maximum"],
+        rows: &[
+            row("backlash, normal", &["cut_backlash_min", "cut_backlash_max"], Millimetre),
+            row("clearance, tip to root", &["cut_clearance_min"], Millimetre),
+            row("clearance, tip to fillet", &["cut_fillet_clearance_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Housing",
+        columns: &["driver", "driven"],
+        rows: &[
+            row("radius of the chamber", &["driver_chamber_radius", "driven_chamber_radius"], Millimetre),
+            row("volume per turn of the driver, cm³", &["volume_per_turn"], Number),
+        ],
+    },
+    FigureGroup {
         heading: "Limits and settings",
         columns: &[],
         rows: &[

@@ -1,5 +1,6 @@
 //! Check of a gear pair.
 
+mod after_cut;
 mod circular;
 mod figures;
 mod remedies;
@@ -70,6 +71,7 @@ fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'
     }
     let extremes = contact.extremes_with(pair, ready);
     mesh(pair, contact, &extremes, &mut report);
+    after_cut::check(pair, &mut report);
     report.worst_first();
     report
 }
@@ -104,6 +106,11 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         }
     }
     values.insert("closure_error", rolling.closure_error());
+    if let Some(housing) = pair.housing() {
+        values.insert("driver_chamber_radius", housing.radii[0]);
+        values.insert("driven_chamber_radius", housing.radii[1]);
+        values.insert("volume_per_turn", 1e-3 * pair.displacement());
+    }
     let (minimum, maximum) = rolling.radii(Member::Driver);
     let a = pair.center_distance();
     values.insert("ratio_min", minimum / (a - minimum));

@@ -52,6 +52,9 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         "pressure-angle" => {
             "a pitch curve whose radius changes more slowly, or a smaller tool pressure angle"
         }
+        "uncut-corner" | "kerf-too-wide" => {
+            "a narrower cut, a larger module, or a larger tool.tip_radius_coefficient"
+        }
         "pitch-curve-swings" => "a smoother law, or fewer points or more digits",
         "pitch-curves-overlap" => "a law whose ratio varies less, or has fewer waves per turn",
         "shaper-radius" => "a shaper cutter with fewer teeth, or a less concave pitch curve",

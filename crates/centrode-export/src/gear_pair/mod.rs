@@ -12,11 +12,14 @@ mod sheet;
 mod sheets;
 mod solid;
 
+use crate::plate::{Hole, Plate};
 use crate::{ExportError, Options, Package};
 pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
 pub(crate) use arrangement::{by_thickness, half_backlash, list, list_keys, list_pair, of_both};
+use centrode_formats::sheet::number;
 use centrode_formats::{Bundle, Format};
+use centrode_gear::design::BodySpec;
 use centrode_gear::{GearPair, GearPairError, Member};
 pub use contacts::contacts;
 pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
@@ -70,7 +73,8 @@ pub fn subject_files(
 }
 
 fn package<'a>(pair: &'a GearPair, formats: &[Format], options: &'a Options) -> Package<'a> {
-    Package::new("a gear pair", pair.name(), pair.title(), formats, options)
+    let package = Package::new("a gear pair", pair.name(), pair.title(), formats, options);
+    package.kerf(pair.design().cut.kerf)
 }
 
 /// Offers all files of a pair.
@@ -81,7 +85,26 @@ pub(crate) fn fill(package: &mut Package<'_>, pair: &GearPair) -> Result<(), Exp
     for subject in Subject::ALL {
         add(package, &drawn, subject, None)?;
     }
+    add_housing(package, pair)?;
     package.machine(|| machine(pair))
+}
+
+/// Offers the housing of a flow meter or pump, if the design has one.
+fn add_housing(package: &mut Package<'_>, pair: &GearPair) -> Result<(), ExportError> {
+    let Some(housing) = pair.housing() else {
+        return Ok(());
+    };
+    let body = BodySpec {
+        width: housing.thickness,
+        ..BodySpec::default()
+    };
+    let mut plate = Plate::of_body("housing", "Housing", housing.outline, None, &body);
+    plate.holes.push(Hole::from(housing.chamber));
+    plate.notes.push(format!(
+        "The chamber is {} mm from the tips of both gears; ports, covers and bearings are the customer's.",
+        number(pair.design().housing.gap.unwrap_or(0.0), 3)
+    ));
+    plate.add(package, pair.drawing())
 }
 
 /// Offers one gear as a part of a larger machine, under its label.

@@ -5,15 +5,17 @@ use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
 use super::rolling::Member;
-use centrode_spec::{DesignSpec, DrawingSpec, degrees};
+use centrode_spec::{CutSpec, DesignSpec, DrawingSpec, degrees};
 
 mod body;
 mod gear;
+mod housing;
 mod teeth;
 mod tool;
 
 pub use body::BodySpec;
 pub use gear::{GearSpec, SHIFTS};
+pub use housing::HousingSpec;
 pub use teeth::{Addendum, Fit, Phase, TeethSpec, TipShortening};
 pub use tool::{Rack, Shaper, ToolSpec};
 
@@ -54,6 +56,12 @@ pub struct GearPairDesign {
     /// Shift and heights of the driven gear's teeth, and its body.
     #[serde(default)]
     pub driven: GearSpec,
+    /// Housing of a flow meter or pump.
+    #[serde(default, skip_serializing_if = "HousingSpec::is_default")]
+    pub housing: HousingSpec,
+    /// How the gears are cut from a plate.
+    #[serde(default, skip_serializing_if = "CutSpec::is_default")]
+    pub cut: CutSpec,
     /// The drawing sheets.
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
@@ -74,8 +82,9 @@ impl DesignSpec for GearPairDesign {
     const FAMILY: &'static str = "gear-pair";
     const ABOUT: &'static str = "A non-circular gear pair.";
     const TEMPLATE: &'static str = include_str!("../../design/gear_pair.toml");
-    const TABLES: &'static [&'static str] =
-        &["pitch", "tool", "teeth", "driver", "driven", "drawing"];
+    const TABLES: &'static [&'static str] = &[
+        "pitch", "tool", "teeth", "driver", "driven", "housing", "cut", "drawing",
+    ];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]
@@ -101,6 +110,8 @@ impl GearPairDesign {
             teeth: TeethSpec::default(),
             driver: GearSpec::default(),
             driven: GearSpec::default(),
+            housing: HousingSpec::default(),
+            cut: CutSpec::default(),
             drawing: DrawingSpec::default(),
         }
     }
@@ -154,6 +165,8 @@ impl GearPairDesign {
                 return broken(&key, Rule::PressureAngles { own, tool });
             }
         }
+        self.housing.validate().map_err(|e| e.inside("housing"))?;
+        self.cut.validate().map_err(|e| e.inside("cut"))?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))
     }
 

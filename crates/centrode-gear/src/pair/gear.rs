@@ -55,6 +55,22 @@ impl Gear {
         Ok(gear)
     }
 
+    /// The gear with another outline of the same teeth.
+    pub(super) fn with_outline(
+        &self,
+        outline: Outline,
+        roles: Vec<Role>,
+        owners: Vec<u32>,
+    ) -> Self {
+        Self {
+            radii: radii(&outline),
+            outline,
+            roles,
+            owners,
+            ..self.clone()
+        }
+    }
+
     pub(super) fn clears_bore(&self) -> Result<(), GearPairError> {
         let reach = self.body.bore_reach();
         let (root, _) = self.radii;

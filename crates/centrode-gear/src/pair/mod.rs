@@ -1,7 +1,9 @@
+mod after_cut;
 mod cutting;
 mod error;
 mod follow;
 mod gear;
+mod housing;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -21,10 +23,12 @@ use super::{
     tool::{Tool, ToolKind},
 };
 
+pub use after_cut::CutPair;
 use cutting::Cutting;
 pub use error::GearPairError;
 use follow::follow;
 pub use gear::Gear;
+pub use housing::Housing;
 
 /// Maximum distance of a stored outline from the exact curve, as a share of the module.
 const OUTLINE_TOLERANCE: f64 = 1e-10;

@@ -22,3 +22,4 @@ mod steps;
 mod untangle;
 
 pub use flatten::Sample;
+pub use offset::{CutterPath, UncutCorner};

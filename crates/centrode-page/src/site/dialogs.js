@@ -44,6 +44,7 @@ export async function files(formats, purposes, parts, sheets) {
   const select = (id, ...choices) => element("select", { id }, ...choices.map(([value, words]) => element("option", { value }, words)));
   const dxf = select("export-dxf", ["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"], ["chords", "R2010, straight lines"]);
   const layers = select("export-layers", ["cut", "contour and holes"], ["all", "with reference curves"]);
+  const kerf = element("input", { type: "text", inputmode: "decimal", class: "number", value: "", id: "export-kerf", placeholder: "as designed" });
   const receiver = select("export-for", ["", "all kinds"], ...purposes.map(([name]) => [name, name]));
   receiver.addEventListener("change", () => {
     const [, kinds, mm] = purposes.find(([name]) => name === receiver.value) ?? ["", formats.map(([name]) => name), 0.001];
@@ -67,6 +68,7 @@ export async function files(formats, purposes, parts, sheets) {
     element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
     element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
     element("p", { class: "option" }, element("label", { for: layers.id }, "Layers"), layers),
+    element("p", { class: "option" }, element("label", { for: kerf.id }, "Width of cut"), kerf, element("span", {}, "mm")),
     ...keys.map(({ words, select }) => element("p", { class: "option" }, element("label", { for: select.id }, words), select)),
   ], [["", "Cancel"], ["export", "Export zip", "main"]]);
   if (answer !== "export") return null;
@@ -74,7 +76,7 @@ export async function files(formats, purposes, parts, sheets) {
   const edits = keys.filter(({ value, select }) => select.value !== value).map(({ key, select }) => ({ key, value: select.value }));
   const some = named.filter((box) => box.checked).map((box) => box.value);
   // All of them are what is written without a choice.
-  return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value, layers: layers.value }, edits };
+  return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value, layers: layers.value, kerf: kerf.value.trim() }, edits };
 }
 
 /** A line below the bar; `key` names it, so that the next of its kind replaces it. */

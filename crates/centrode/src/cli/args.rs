@@ -8,7 +8,7 @@ use crate::export::Layers;
 use crate::family::{FAMILIES, PartName};
 use crate::formats::{Format, Purpose};
 use crate::geometry::Tolerance;
-use centrode_spec::{Projection, SheetSize};
+use centrode_spec::{CutSpec, Projection, SheetSize};
 use centrode_synthesis::optimise::Strategy;
 use clap::builder::{
     NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
@@ -122,6 +122,10 @@ pub(crate) struct Export {
     /// Layers of the cutting files: only contour and holes, or all; the additional layers do not plot
     #[arg(long, value_parser = by_word(Layers::NAMES, about_layers), default_value = Layers::Cut.name())]
     pub(crate) layers: Layers,
+    /// Width of the cut, mm: moves the contours of the cutting files outwards by half of it, and holes inwards [default:
+    /// cut.kerf of the design, or 0]
+    #[arg(long, value_parser = kerf, allow_negative_numbers = true, value_name = "MM")]
+    pub(crate) kerf: Option<f64>,
     /// Parts to write files for, separated by commas: from this list, or as named in the design; default: all
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
@@ -291,6 +295,14 @@ pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
         return Err(format!("tolerance must be at least {FINEST} mm"));
     }
     Ok(tolerance)
+}
+
+fn kerf(word: &str) -> Result<f64, String> {
+    let kerf = word
+        .parse()
+        .map_err(|_| "not a number of millimetres".to_owned())?;
+    let checked = CutSpec { kerf }.validate();
+    checked.map(|()| kerf).map_err(|error| error.to_string())
 }
 
 #[derive(Debug, Args)]

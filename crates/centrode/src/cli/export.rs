@@ -9,7 +9,7 @@ use crate::family::{Family, Mechanism, PartName};
 use crate::formats::{Bundle, Format, dxf};
 use crate::geometry::Tolerance;
 use crate::page::words::summary;
-use std::io::Write;
+use std::{io::Write, sync::Arc};
 
 /// Resolves a design, checks it and writes its files.
 pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Failure> {
@@ -18,7 +18,10 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Fail
     let design = source.design()?;
     let progress = Progress::new(4);
     progress.step("resolving the design");
-    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    let mechanism = cut(
+        design.mechanism().map_err(|error| source.blame(error))?,
+        command,
+    );
     progress.step("checking");
     let found = mechanism.check();
     progress.step("drawing");
@@ -41,7 +44,10 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
     let mut files = Bundle::default();
     if let Some(command) = command {
         refuse_useless(command)?;
-        let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+        let mechanism = cut(
+            design.mechanism().map_err(|error| source.blame(error))?,
+            command,
+        );
         let found = mechanism.check();
         files = bundle(design.family(), mechanism.as_ref(), &found, command)?;
     }
@@ -67,6 +73,12 @@ pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 
     };
     let words = |name: String| [name.clone(), about(&name)];
     known.into_iter().map(words).collect()
+}
+
+/// The mechanism with the kerf of the command.
+fn cut(mechanism: Arc<dyn Mechanism>, command: &Export) -> Arc<dyn Mechanism> {
+    let changed = command.kerf.and_then(|kerf| mechanism.with_kerf(kerf));
+    changed.unwrap_or(mechanism)
 }
 
 /// The files of a mechanism and its report.
@@ -136,6 +148,9 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     if command.layers == Layers::All && !cut {
         return refused("--layers", "the formats dxf and svg");
     }
+    if command.kerf.is_some() && !cut {
+        return refused("--kerf", "the formats dxf and svg");
+    }
     let drawn = [File::Dxf, File::Svg, File::Sheet, File::Pdf];
     let solid = [File::Stl, File::Step, File::ThreeMf, File::Csv];
     let any = |files: &[File]| files.iter().any(|file| command.wants(*file));
@@ -161,6 +176,7 @@ fn options(command: &Export, found: &Report) -> Options {
         Dxf::Chords => options.dxf_curves = dxf::Curves::Chords,
     }
     options.layers = command.layers;
+    options.kerf = command.kerf;
     if !command.part.is_empty() {
         options.parts = Some(command.part.clone());
     }

@@ -9,7 +9,7 @@ macro_rules! designs {
 }
 
 /// Name and text of every shipped design, by family.
-pub(crate) const SHIPPED: [(&str, &str); 28] = designs!(
+pub(crate) const SHIPPED: [(&str, &str); 29] = designs!(
     "circular-pair",
     "cubic-pair",
     "elliptic-pair-2018",
@@ -17,6 +17,7 @@ pub(crate) const SHIPPED: [(&str, &str); 28] = designs!(
     "lobed-pair-2-1",
     "lobed-pair-3-2",
     "lobed-pair-5-2",
+    "oval-flow-meter",
     "quintic-pair",
     "shifted-pair",
     "transplanter-pair-2021",

@@ -47,6 +47,9 @@ pub(super) struct Files {
     tolerance: String,
     dxf: String,
     layers: String,
+    /// Width of the cut, mm; empty for that of the design.
+    #[serde(default)]
+    kerf: String,
     /// Names of parts; empty for all parts.
     #[serde(default)]
     parts: Vec<String>,
@@ -76,6 +79,10 @@ impl Files {
             .into_iter()
             .chain([&*tolerance, &*dxf, &*layers])
             .collect();
+        let kerf = format!("--kerf={}", self.kerf);
+        if !self.kerf.is_empty() {
+            words.push(&kerf);
+        }
         if !kinds.is_empty() {
             words.push(&formats);
         }
