@@ -15,6 +15,7 @@ mod machine;
 mod mechanism;
 mod moving_box;
 mod open;
+mod passing;
 mod proofs;
 mod registry;
 mod spiral_shaft;

@@ -6,6 +6,7 @@ use centrode_spec::{
 };
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
+use super::passing::PassingProblem;
 use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
 
 /// Mechanism of one family, with all that the registry needs in addition to the mechanism itself.
@@ -62,7 +63,7 @@ impl PartName {
     }
 }
 
-type Resolve = fn(&dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError>;
+pub(crate) type Resolve = fn(&dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError>;
 type SetProblem = fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched>;
 
 /// One family of machine.
@@ -104,7 +105,7 @@ impl Family {
         (self.resolve)(design)
     }
 
-    /// Search problem that starts from a design.
+    /// Search problem that starts from a design. Its goals are reached by designs that pass the check.
     ///
     /// # Errors
     /// [`NotSearched`] for a design that no search accepts.
@@ -112,7 +113,9 @@ impl Family {
         &self,
         design: &dyn Design,
     ) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
-        (self.problem)(design)
+        let inner = (self.problem)(design)?;
+        let resolve = self.resolve;
+        Ok(Box::new(PassingProblem { inner, resolve }))
     }
 
     /// Minimum widening of a design's bounds with which all its goals can be reached.

@@ -51,6 +51,11 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Target that no objective reaches: the search goes on to improve a design that meets everything.
+    pub const POLISH: f64 = f64::MIN;
+}
+
+impl Settings {
     /// Refuses a population too small for any method.
     ///
     /// # Errors

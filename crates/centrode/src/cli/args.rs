@@ -324,6 +324,9 @@ pub(crate) struct Optimise {
     /// Points per generation; default: depends on the method and the number of parameters
     #[arg(long)]
     pub(crate) population: Option<usize>,
+    /// Continue after the first design that meets everything, to improve the objective of [optimise]; not for guided
+    #[arg(long)]
+    pub(crate) polish: bool,
     /// File for the improved design: the text of the design file with new numbers, its comments unchanged
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
@@ -331,7 +334,7 @@ pub(crate) struct Optimise {
     #[arg(long)]
     pub(crate) resume: bool,
     /// Instead of a search, widen the bounds by the minimum with which all goals can be reached, if the family allows it
-    #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "resume"])]
+    #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "polish", "resume"])]
     pub(crate) widen: bool,
     /// Print the result as JSON
     #[arg(long)]

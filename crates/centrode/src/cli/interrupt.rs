@@ -2,7 +2,7 @@ use std::io;
 
 use crate::geometry::Cancel;
 
-/// Watch for Ctrl-C; a second one ends the program at once.
+/// Watch for Ctrl-C and for the system's request to terminate; a second one ends the program at once.
 pub(crate) struct Interrupt {
     /// Token that Ctrl-C cancels.
     pub(crate) cancel: Cancel,
@@ -50,30 +50,36 @@ fn watched(stated: Cancel) -> io::Result<tokio::runtime::Runtime> {
         .enable_all()
         .build()?;
     // Ctrl-C is caught from here on, not only when the task runs.
-    let mut presses = {
+    let watches = {
         let _inside = runtime.enter();
-        presses()?
+        watches()?
     };
-    runtime.spawn(async move {
-        if presses.recv().await.is_none() {
-            return;
-        }
-        stated.cancel();
-        if presses.recv().await.is_some() {
-            std::process::exit(130);
-        }
-    });
+    for mut watch in watches {
+        let stated = stated.clone();
+        runtime.spawn(async move {
+            while watch.recv().await.is_some() {
+                if stated.is_cancelled() {
+                    std::process::exit(130);
+                }
+                stated.cancel();
+            }
+        });
+    }
     Ok(runtime)
 }
 
 #[cfg(unix)]
-fn presses() -> io::Result<tokio::signal::unix::Signal> {
-    tokio::signal::unix::signal(tokio::signal::unix::SignalKind::interrupt())
+fn watches() -> io::Result<[tokio::signal::unix::Signal; 2]> {
+    use tokio::signal::unix::{SignalKind, signal};
+    Ok([
+        signal(SignalKind::interrupt())?,
+        signal(SignalKind::terminate())?,
+    ])
 }
 
 #[cfg(windows)]
-fn presses() -> io::Result<tokio::signal::windows::CtrlC> {
-    tokio::signal::windows::ctrl_c()
+fn watches() -> io::Result<[tokio::signal::windows::CtrlC; 1]> {
+    Ok([tokio::signal::windows::ctrl_c()?])
 }
 
 impl Drop for Interrupt {

@@ -22,13 +22,16 @@ use stored::Stored;
 /// Interval at which the search is stored while it runs.
 const STORE: Duration = Duration::from_secs(10);
 
+/// Interval of the lines of progress if standard error is no terminal.
+const LINE: Duration = Duration::from_secs(5);
+
 /// Searches for a better design and writes it, with its search next to it.
 pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
     source.keep_from(&command.output)?;
     let file = source.design()?;
     // A design that gives no mechanism is reported as by a check.
-    file.mechanism().map_err(|error| source.blame(error))?;
+    let mechanism = file.mechanism().map_err(|error| source.blame(error))?;
     if command.widen {
         return widen::run(command, &file, &source.text()?, out);
     }
@@ -64,6 +67,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
             seed: command.seed.unwrap_or(usual.seed),
             population: command.population,
             evaluations: command.evaluations.unwrap_or(usual.evaluations),
+            target: command.polish.then_some(Settings::POLISH),
             ..usual
         };
         DesignSearch::new(problem, strategy, settings).map_err(|error| {
@@ -80,7 +84,15 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
     let better = better(&text, problem, &best);
     stored.write_design(&better.map_err(|error| Failure::Usage(error.to_string()))?)?;
     stored.write(problem, &search)?;
-    let outcome = Outcome::new(problem, &search, &best, ended, seconds);
+    let before = mechanism.check_goals().goals;
+    let outcome = Outcome::new(
+        problem,
+        &search,
+        (before, file.design()),
+        &best,
+        ended,
+        seconds,
+    );
     if command.json {
         outcome.json(out)?;
     } else {
@@ -118,12 +130,14 @@ fn watched(
 ) -> Result<(Ended, f64), Failure> {
     let interrupt = Interrupt::watch();
     let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
-    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} left";
+    let allowed = search.allowed();
+    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, at most {eta} left";
     if let Ok(style) = ProgressStyle::with_template(style) {
         bar.set_style(style);
     }
     let begun = Instant::now();
     let mut due = begun + STORE;
+    let mut next_line = begun + LINE;
     let mut store = false;
     let ended = loop {
         if store {
@@ -132,12 +146,23 @@ fn watched(
             store = false;
         }
         let ended = search.run(problem, &mut |progress| {
-            bar.set_position(progress.evaluations);
-            bar.set_message(if progress.violation > 0.0 {
+            let words = if progress.violation > 0.0 {
                 format!("total miss of goals {:.4}", progress.violation)
             } else {
                 format!("goals reached, objective {:.6}", progress.objective)
-            });
+            };
+            if bar.is_hidden() && Instant::now() >= next_line {
+                next_line = Instant::now() + LINE;
+                let (done, seconds) = (progress.evaluations, begun.elapsed().as_secs());
+                // A closed standard error is no reason to stop.
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "{done} of at most {} evaluations, {words}, {seconds} s",
+                    allowed
+                );
+            }
+            bar.set_position(progress.evaluations);
+            bar.set_message(words);
             store = Instant::now() >= due;
             if store || interrupt.came() {
                 ControlFlow::Break(())

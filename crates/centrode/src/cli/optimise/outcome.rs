@@ -2,6 +2,7 @@ use std::io::{self, Write};
 
 use crate::analysis::Goal;
 use centrode_optimise::{Ended, Progress};
+use centrode_spec::Design;
 use centrode_synthesis::optimise::{DesignProblem, DesignSearch, GuidedStep};
 use serde::Serialize;
 
@@ -36,25 +37,33 @@ impl<'a> Outcome<'a> {
     pub(super) fn new(
         problem: &dyn DesignProblem,
         search: &'a DesignSearch,
+        (before, design): (Vec<Goal>, &dyn Design),
         best: &[f64],
         ended: Ended,
         seconds: f64,
     ) -> Self {
         let start = problem.start().unwrap_or_else(|| best.to_vec());
         let moved = problem.variables().iter().zip(start.iter().zip(best));
-        let parameters = moved.map(|(variable, (&before, &after))| Moved {
-            name: variable.name.clone(),
-            key: variable.key.clone(),
-            before: variable.written(before),
-            after: variable.written(after),
-            share: (after - before) / (variable.bounds[1] - variable.bounds[0]),
+        let parameters = moved.map(|(variable, (&start, &after))| {
+            let written = design.numbered(&variable.key).ok();
+            let written = written.and_then(|numbered| numbered.value());
+            let [from, to] = [start, after].map(|value| variable.written(value));
+            let [low, high] = variable.bounds.map(|value| variable.written(value));
+            let before = written.unwrap_or(from);
+            Moved {
+                name: variable.name.clone(),
+                key: variable.key.clone(),
+                before,
+                after: to,
+                share: (to - before) / (high - low),
+            }
         });
         Self {
             ended,
             seconds,
             progress: search.progress(),
             parameters: parameters.collect(),
-            before: problem.goals(&start).unwrap_or_default(),
+            before,
             after: problem.goals(best).unwrap_or_default(),
             steps: search.log(),
             remark: problem.remark(best),

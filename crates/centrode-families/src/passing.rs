@@ -1,0 +1,97 @@
+use std::sync::Arc;
+
+use centrode_analysis::{Goal, Severity, Unit};
+use centrode_optimise::{Evaluation, Problem};
+use centrode_spec::Design;
+use centrode_synthesis::optimise::{DesignProblem, Variable};
+
+use super::registry::Resolve;
+
+/// Search problem of a family in which a design that meets all goals must also pass the check.
+///
+/// The check is made only of points that meet everything else, since it takes far longer than an evaluation.
+pub(crate) struct PassingProblem {
+    pub(crate) inner: Box<dyn DesignProblem + Send>,
+    pub(crate) resolve: Resolve,
+}
+
+impl PassingProblem {
+    /// Number of errors that the check finds at a point.
+    fn errors(&self, point: &[f64]) -> f64 {
+        match (self.resolve)(self.inner.design(point).as_ref()) {
+            Ok(mechanism) => {
+                let findings = mechanism.check().findings;
+                let errors = findings.iter().filter(|f| f.severity == Severity::Error);
+                errors.count() as f64
+            }
+            Err(_) => 1.0,
+        }
+    }
+
+    /// The check as a goal; `errors` is its number of errors.
+    fn goal(errors: f64) -> Goal {
+        let goal = Goal::new(0, "check", "errors of the check", Unit::Count);
+        goal.maximum(0.0, 1.0).with(errors)
+    }
+}
+
+impl Problem for PassingProblem {
+    fn bounds(&self) -> Vec<(f64, f64)> {
+        self.inner.bounds()
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        self.inner.start()
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Evaluation {
+        let mut evaluation = self.inner.evaluate(point);
+        let good_enough = self.inner.target().unwrap_or(f64::INFINITY);
+        if evaluation.feasible() && evaluation.objective <= good_enough {
+            evaluation.constraints.push(self.errors(point));
+        }
+        evaluation
+    }
+}
+
+impl DesignProblem for PassingProblem {
+    fn variables(&self) -> &[Variable] {
+        self.inner.variables()
+    }
+
+    fn design(&self, point: &[f64]) -> Arc<dyn Design> {
+        self.inner.design(point)
+    }
+
+    fn followers(&self, point: &[f64]) -> Vec<(String, f64)> {
+        self.inner.followers(point)
+    }
+
+    fn goals(&self, point: &[f64]) -> Option<Vec<Goal>> {
+        let mut goals = self.inner.goals(point)?;
+        let is_met = goals.iter().all(|goal| goal.met() == Some(true));
+        let errors = if is_met { self.errors(point) } else { 0.0 };
+        if errors > 0.0 {
+            goals.push(Self::goal(errors));
+        }
+        Some(goals)
+    }
+
+    fn guides(&self, point: &[f64]) -> Option<Vec<Goal>> {
+        let mut goals = self.inner.guides(point)?;
+        let is_met = goals
+            .iter()
+            .all(|goal| goal.margin.is_none_or(|margin| margin >= 0.0));
+        goals.push(Self::goal(if is_met { self.errors(point) } else { 0.0 }));
+        Some(goals)
+    }
+
+    fn target(&self) -> Option<f64> {
+        // Without a target of its own, the first design that meets everything ends a search.
+        self.inner.target().or(Some(f64::MAX))
+    }
+
+    fn remark(&self, point: &[f64]) -> Option<String> {
+        self.inner.remark(point)
+    }
+}
