@@ -1,4 +1,4 @@
-"""What a test does without: on a person's machine a line at the end says what to install, in CI the test fails."""
+"""Optional programs of tests: locally a line at the end lists what to install, in CI the test fails."""
 
 import os
 from collections import Counter

@@ -72,7 +72,7 @@ FINEST = 2.0**-12
 
 
 class Pair:
-    """What the file says of the pair, in balls."""
+    """Data of the pair from the file, in balls."""
 
     def __init__(self, proof):
         if proof["format"] != "centrode-proof" or proof["version"] != 3:
@@ -249,7 +249,7 @@ def main():
         print(f"rejected: {reason}")
         return 1
     except UndecidedError:
-        print("rejected: the file's numbers are too wide apart to say anything")
+        print("rejected: the numbers of the file are too far apart to decide")
         return 1
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError) as reason:
         print(f"rejected: the file is no proof ({type(reason).__name__}: {reason})")

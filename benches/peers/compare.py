@@ -143,7 +143,7 @@ def compare(case, alone):
         mine = {
             "generate + prove": ours,
             "whole command to files": our_whole,
-            "points / arcs a gear in DXF": max(vertices(out / f"{gear}.dxf") for gear in ("driver", "driven")),
+            "points / arcs per gear in DXF": max(vertices(out / f"{gear}.dxf") for gear in ("driver", "driven")),
             "points of its outline": len(outline),
             "transmission error, rad": report.values["transmission_error_max"],
             "profile error, mm": profile(case, outline),
@@ -161,7 +161,7 @@ def peer_figures(case, our, folder):
     return {
         "generate + prove": took,
         "whole command to files": whole,
-        "points / arcs a gear in DXF": vertices(f"{folder}/pair.dxf"),
+        "points / arcs per gear in DXF": vertices(f"{folder}/pair.dxf"),
         "points of its outline": len(pair.drive_outline),
         "transmission error, rad": pair.maximum_transmission_error,
         "profile error, mm": profile(case, pair.drive_outline),
@@ -176,14 +176,14 @@ def circular(alone):
     mine = {
         "generate (ours: both gears)": generate,
         "generate + prove": prove,
-        "edges / segments a gear": len(pair.driver.outline(tolerance=1e-3)),
+        "edges / segments per gear": len(pair.driver.outline(tolerance=1e-3)),
     }
     theirs = {}
     if not alone:
         from py_gearworks import SpurGear
 
         took, wire = best(lambda: SpurGear(teeth, module=module).build_boundary_wire())
-        theirs = {"generate (ours: both gears)": took, "edges / segments a gear": len(wire.edges())}
+        theirs = {"generate (ours: both gears)": took, "edges / segments per gear": len(wire.edges())}
     show("circle, z 23", "py_gearworks", mine, theirs)
 
 

@@ -78,7 +78,7 @@ def profile_error(outline, curve, alpha, pitch, reach):
         points = points[keep]
         for side in (1, -1):
             s, _ = crossings(points, curve, alpha, reach, side)
-            # The other side's flanks give crossings all over: a true side clusters once a pitch.
+            # The other side's flanks give crossings all over: a true side clusters once per pitch.
             turn = s / pitch
             centre = cluster(turn)
             away = (turn - centre + 0.5) % 1 - 0.5

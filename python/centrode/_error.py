@@ -20,7 +20,7 @@ class DesignError(Error, ValueError):
     key: str
     """Key at fault as in a design file, with its tables; empty if the fault has no key."""
     line: int | None
-    """Line of the key in the design file, from one; None without a file."""
+    """Line of the key in the design file, from one; None if the design is not from a file."""
     column: int | None
     """Column of the key, in characters, from one."""
 

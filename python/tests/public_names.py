@@ -26,7 +26,7 @@ class Module:
             if isinstance(node, ast.ClassDef):
                 self.defined[node.name] = [node]
             elif isinstance(node, ast.FunctionDef):
-                # An overloaded function is defined once a form.
+                # An overloaded function is defined once per form.
                 self.defined.setdefault(node.name, []).append(node)
             elif isinstance(node, ast.ImportFrom) and node.level == 1:
                 for alias in node.names:

@@ -41,10 +41,10 @@ def test_concave_teeth_carry_the_driven_gear_where_the_analysis_says(folder, sen
     contact = pair.contact(inputs=travel)
     pushed = contact.transmission_error if sense > 0 else contact.reverse_transmission_error
     angle = (pair.pressure_angle if sense > 0 else pair.reverse_pressure_angle)(travel)
-    # Half the play along the normal, as the driven gear turns by it.
+    # Half of the backlash along the normal, as rotation of the driven gear.
     half = pair.backlash / 2 / (pair.center_distance / (1 + pair.ratio(travel)) * np.cos(angle))
     error = np.degrees(np.abs(off - (pushed - sense * half)))
-    # Where tooth edges carry, as the check reports, the gear is thrown: it has settled after a twentieth of a turn.
+    # Where tooth edges drive, as the check reports, the gear is thrown: it has settled after a twentieth of a turn.
     lost = travel[np.abs(pushed) > 1e-4]
     since = sense * (travel[:, None] - lost)
     sound = np.all((since < -0.01) | (since > 0.35), axis=1)

@@ -142,7 +142,7 @@ def objects():
 
 
 def figures(thing):
-    """What a thing says of itself: every attribute that is a value, arrays as lists."""
+    """Every attribute of an object that is a value, arrays as lists."""
     if isinstance(thing, np.ndarray):
         return figures(thing.tolist())
     if isinstance(thing, float):

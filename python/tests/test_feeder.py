@@ -45,7 +45,7 @@ def test_the_crank_holds_the_weight_of_the_links_and_of_what_is_carried(feeder):
     along = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     assert np.abs((forces[:, 6] * along).sum(axis=1)).max() < 1e-9
     assert isinstance(feeder.crank_torque(1.0), float)
-    # What the design says is carried is carried, in check too.
+    # The mass carried in the design acts in the check, too.
     laden = ct.Feeder.from_toml(ct.template("feeder").replace("carried_mass = 0 ", "carried_mass = 2.0 "))
     np.testing.assert_array_equal(laden.crank_torque(phi), feeder.crank_torque(phi, carried=2.0))
     assert laden.check().values["crank_torque_still_max"] > 2 * feeder.check().values["crank_torque_still_max"]

@@ -11,7 +11,7 @@ import tomllib
 from sample import sampled
 
 SHIPPED = sorted((Path(__file__).resolve().parents[2] / "tests" / "designs").glob("*.toml"))
-# Free fall in the frame of the first link, m/s²; none where the family has no upright.
+# Free fall in the frame of the first link, m/s²; None if the family has no upright direction.
 DOWN = {
     "GearPair": (0.0, 0.0, 0.0),
     "ThreeArm": (0.0, -9.80665, 0.0),

@@ -334,7 +334,7 @@ def test_what_is_no_band_is_refused(keywords, word):
 
 
 def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_path):
-    """In MuJoCo, driven by its teeth alone, the planet is off its law by no more than the play of both meshes."""
+    """In MuJoCo, driven by its teeth alone, the planet is off its law by no more than the backlash of both meshes."""
     made = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=5)
     machine = made.machine()
     machine.export(tmp_path, formats=["mjcf"])
@@ -342,7 +342,7 @@ def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_p
     command = [sys.executable, str(tmp_path / "play_mujoco.py"), *how]
     played = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(played.stdout.splitlines()[-1])
-    # Half the play of the first mesh, as the second hands it on, and half of the second, by the minimum pitch radius.
+    # Half the backlash of the first mesh, transmitted by the second, and half of the second, by the minimum radius.
     pair = tomllib.loads(machine.to_toml())["pairs"]["first-stage"]
     distance, backlash = pair["pitch"]["center_distance"], pair["teeth"]["backlash"]
     ratio = made.ratios[1]

@@ -76,7 +76,7 @@ def test_mujoco_follows_our_tips(arms, folder):
     run = [sys.executable, str(folder / "play_mujoco.py"), "--check"]
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
     assert found["point_off_max_m"] < 1e-6
-    # The table itself is ours, and between rows straight lines are as near as it says.
+    # The table is our motion, and straight lines between rows deviate by no more than the stated value.
     table = np.genfromtxt(folder / "motion.csv", delimiter=",", names=True)
     about = json.loads((folder / "motion.json").read_text())
     theta = table["carrier_turn_rad"]

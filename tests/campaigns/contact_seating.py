@@ -1,4 +1,4 @@
-"""Random gear pairs, seated where the contact analysis says, held against polygons by GEOS.
+"""Random gear pairs, seated by the contact analysis, and compared with polygons by GEOS.
 
 Seated either way the gears must not penetrate; turned a little further they must. Where no place is free none may be
 found between the seats. The polygons come from the exported
@@ -53,7 +53,7 @@ def curve(random, kind, size):
 
 
 def draw(seed, number):
-    """A random pair and what it is; nothing where no such pair exists."""
+    """A random pair and its description; None if no such pair exists."""
     random = np.random.default_rng([seed, number])
     kind = KINDS[number % len(KINDS)]
     fitted = bool(random.integers(2))

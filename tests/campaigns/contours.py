@@ -136,7 +136,7 @@ def draw(seed, number):
     turns = int(random.choice([1, 1, 1, 2, 3]))
     ratio = [turns, 1]
     if pitch["kind"] in ("transmission", "ratio"):
-        ratio = [1, 1]  # as the law says
+        ratio = [1, 1]  # as the law requires
     elif lobes != 1 and random.integers(2):
         ratio = [turns, lobes or int(random.integers(1, 4))]
     divisor = math.gcd(*ratio)
@@ -239,7 +239,7 @@ def examine(task):
 def main():
     """Run the campaign; the exit status tells whether anything failed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--gears", type=int, default=400, help="gears to draw, two a pair")
+    parser.add_argument("--gears", type=int, default=400, help="gears to draw, two per pair")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first pair drawn")
     parser.add_argument("--fine", type=int, default=10, help="every how many pairs are looked at within 1e-9 at once")
@@ -274,7 +274,7 @@ def main():
     print(
         f"# seed {options.seed}, pairs {options.first} to {options.first + len(times) - 1}: {gears} gears, "
         f"{sum(reasons.values())} designs refused, {failed} pairs failed; "
-        f"median {1e3 * times[len(times) // 2]:.1f} ms a pair, most {1e3 * times[-1]:.0f} ms"
+        f"median {1e3 * times[len(times) // 2]:.1f} ms per pair, most {1e3 * times[-1]:.0f} ms"
     )
     return 1 if failed else 0
 

@@ -3,7 +3,7 @@
 The designs of tests/designs are changed at one to four places: numbers scaled, negated, made huge, tiny or no number at
 all, words exchanged for others written under the same key, keys dropped, tables and lists taken from elsewhere, lists
 cut and drawn out; gears have up to 200 teeth. Each is checked by the command line, which may take so many seconds of
-processor time; it must answer with a report or with an error that says something. Prints each design that fails.
+processor time; it must answer with a report or with an error that has a reason. Prints each design that fails.
 
     CENTRODE_BIN=target/debug/centrode python tests/campaigns/hostile.py --designs 2000 --seed 1 --jobs 2
 """

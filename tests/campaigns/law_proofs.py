@@ -1,4 +1,4 @@
-"""Proofs of the strong laws: the certificate of each with fitted teeth, and what the proof checker says of it.
+"""Proofs of the strong laws: the certificate of each with fitted teeth, and the result of the proof checker.
 
     CENTRODE_BIN=target/debug/centrode python tests/campaigns/law_proofs.py
 

@@ -17,7 +17,7 @@ MODULE = 2
 
 
 def design(teeth: int, per_tooth: int, sharpness: float, addendum: str) -> str | None:
-    """Design of a pair whose radius swings so often a tooth; none where it would come near zero.
+    """Design of a pair whose radius oscillates this often per tooth; None if the radius would come near zero.
 
     On a circle the amplitude would give arcs so many times smaller than a module.
     """

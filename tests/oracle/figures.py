@@ -25,7 +25,7 @@ def written(value) -> str:
 
 
 def table(values: dict) -> list[str]:
-    """The lines of one TOML table; a list of lists has one row a line."""
+    """The lines of one TOML table; a list of lists has one row per line."""
     lines = []
     for key, value in values.items():
         if isinstance(value, list) and value and isinstance(value[0], list | tuple):

@@ -143,7 +143,7 @@ fn table() -> String {
             both(&|m, _| m.picking_depth()),
         ),
         (
-            "tip at picking, mm/s at 180 seedlings a minute",
+            "tip at picking, mm/s at 180 seedlings per minute",
             both(&|_, r| r.values["picking_speed"]),
         ),
         (

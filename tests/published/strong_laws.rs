@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use crate::data::{cases, file};
 
-/// Transmission error up to which flanks carry the motion, rad.
+/// Transmission error up to which flanks transmit the motion, rad.
 const CARRIED: f64 = 1e-9;
 
 #[derive(Deserialize)]
@@ -46,7 +46,7 @@ fn in_words(design: &GearPairDesign) -> String {
         return format!("{} rad", short(error));
     }
     assert!(report.ok(), "{:?}", report.findings);
-    "carries".into()
+    "transmits".into()
 }
 
 /// Rows of the table in the docs, cell by cell.
@@ -88,8 +88,8 @@ fn the_table_of_strong_laws_in_the_docs_is_what_the_teeth_do() {
                     &fitted,
                 ];
                 assert_eq!(found.map(str::to_owned).as_slice(), row);
-                assert!(!law.passes || fitted == "carries", "{}", law.name);
-                // Teeth are held against each other at twenty poses a pitch.
+                assert!(!law.passes || fitted == "transmits", "{}", law.name);
+                // Teeth are held against each other at twenty poses per pitch.
                 let report = check(&GearPair::resolve(&design).expect("a pair"));
                 let overlaps = ["interference", "tip-interference"];
                 let depths = report
@@ -150,7 +150,7 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
 }
 
 #[test]
-fn what_is_chosen_is_sound_wherever_what_is_written_carries() {
+fn chosen_numbers_are_sound_wherever_the_written_ones_are() {
     let ratios = [
         "1 + 0.3*cos(phi)",
         "1 + 0.4*cos(2*phi)",
@@ -177,14 +177,14 @@ fn what_is_chosen_is_sound_wherever_what_is_written_carries() {
 }
 
 #[test]
-fn the_strongest_law_is_carried_by_the_tooth_count_that_the_docs_name_and_not_by_one_fewer() {
-    let carries = |teeth: u32| {
+fn the_strongest_law_is_transmitted_by_the_tooth_count_that_the_docs_name_and_not_by_one_fewer() {
+    let transmits = |teeth: u32| {
         let law = by_ratio("1 + 0.5*cos(3*phi)", teeth, Addendum::Fitted);
         let (error, ok) = error(&law);
         ok && error <= CARRIED
     };
     let [named, fewer] = std::thread::scope(|scope| {
-        let both = [414, 413].map(|teeth| scope.spawn(move || carries(teeth)));
+        let both = [414, 413].map(|teeth| scope.spawn(move || transmits(teeth)));
         both.map(|job| job.join().expect("checked"))
     });
     assert!(named && !fewer);

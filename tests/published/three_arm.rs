@@ -88,7 +88,7 @@ fn the_shipped_reading_meets_what_the_paper_says_of_its_motion() {
     let report = check_three_arm(&arms);
     for goal in &report.goals {
         let expected = match &*goal.name {
-            // The paper does not say how its gears bear a module above 2.5 mm; full teeth they cannot have.
+            // The paper does not state how its gears can have a module above 2.5 mm. With full teeth it is not possible.
             "sound-teeth" => Some(false),
             _ => Some(true),
         };

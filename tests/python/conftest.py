@@ -56,7 +56,7 @@ tooth_count = 20
 
 @dataclass
 class Export:
-    """A folder of exported files and what the report says of them."""
+    """A folder of exported files and their report."""
 
     name: str
     design: Path

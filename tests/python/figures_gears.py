@@ -84,7 +84,7 @@ def baesel():
 
 
 def remedy():
-    """Minimum counts of fitted teeth that carry 1 + 0.45 cos 2 phi, as they are and with a choice."""
+    """Minimum counts of fitted teeth that transmit 1 + 0.45 cos 2 phi, as they are and with a choice."""
     law = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
     return [found.minimum_tooth_count for found in ct.GearPair(law, addendum="fitted").remedies()]
 

@@ -130,7 +130,7 @@ def slot():
 
 
 def rates():
-    """Cycles and cuttings a minute: a motor, a chain, five slots."""
+    """Cycles and cuttings per minute: a motor, a chain, five slots."""
     return [30 / 2.7, 5 * 30 / 2.7]
 
 
@@ -158,7 +158,7 @@ FEEDER = [
         "| fastest tip on feed, return, mm/s | {}, {} | {}, {} |",
         from_report("tip_speed_feed_max", "tip_speed_return_max"),
     ),
-    Said("| cuttings a minute | {} | {} |", lambda: [rates()[1]] * 2),
+    Said("| cuttings per minute | {} | {} |", lambda: [rates()[1]] * 2),
     Said("They have {} degrees.", lambda: least_transmission(middle()[0])),
     Said(
         "has more than {} (at {}, {}, {}, {} mm)",
@@ -177,7 +177,7 @@ FEEDER = [
         lambda: 0.05 * sum(map(abs, sensitivity(*middle()))),
     ),
     Said("once in {} degrees and the entry angle", lambda: 360 * 30 / 40),
-    Said("chain of 2.7 give {} cycles a minute, and five slots {} cuttings", rates),
+    Said("chain of 2.7 give {} cycles per minute, and five slots {} cuttings", rates),
     Said(
         "at most {} rad in either direction while it moves and {} rad while it rests",
         lambda: [values("feeder-2022")[f"gear_play_{when}_max"] for when in ("moving", "resting")],
@@ -329,7 +329,7 @@ BOX = [
         "| plain shaft | {} | {} | {} | {} | any |",
         lambda: [MEAN * WINDOW, 1, 1, wall(MEAN, 0.0)],
     ),
-    Said("| sine, one wave a turn, B = {} mm | {} | {} | {} | {} to {} | {} |", lambda: [B, 2.05, *sine(1)]),
+    Said("| sine, one wave per turn, B = {} mm | {} | {} | {} | {} to {} | {} |", lambda: [B, 2.05, *sine(1)]),
     Said("| sine, two waves, B = {} mm | {} | {} | {} | {} to {} | {} |", lambda: [amplitude(2), 2.05, *sine(2)]),
     Said(
         "| elliptic gears, k = {} (published) | {} | {} | {} | {} to {} | {} |",

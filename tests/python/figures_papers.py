@@ -303,7 +303,7 @@ FEEDER = [
         "from ({}, {}) to ({}, {}) mm in {} s, back in {} s, rest {} s; peaks of {} and {} mm/s",
         course_of_tip,
     ),
-    Said("| {} r/min and {} cuttings a minute |", rates),
+    Said("| {} r/min and {} cuttings per minute |", rates),
     Said("the mean is {} |", lambda: (82 + 86 + 80) / 3),
     Said("except for rounding (below {<} mm/s)", lambda: values("feeder-2022")["tip_speed_ends_max"]),
     Said("it gives {} deg, where the rocker is at {} deg", rocker_of_other_branch),

@@ -26,7 +26,7 @@ PREFERENCES = {
 
 
 class RefusedError(Exception):
-    """What Firefox says it cannot do."""
+    """Errors that Firefox reports."""
 
 
 class Firefox:

@@ -13,7 +13,7 @@ from reading import rows
 
 SHIPPED = {path.stem: tomllib.loads(path.read_text()) for path in sorted((ROOT / "tests" / "designs").glob("*.toml"))}
 CLOSED = [name for name, design in SHIPPED.items() if design["family"] == "machine" and "dyads" in design]
-# Teeth have play: of what they move the law is not kept as closely.
+# Teeth have backlash: the joints that they move follow their law less closely.
 TOOTHLESS = [name for name in CLOSED if "pairs" not in SHIPPED[name]]
 
 
@@ -46,7 +46,7 @@ def test_mujoco_carries_a_train_whose_sun_stands_still_by_its_teeth(exported):
     done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=300, cwd="/")
     found = json.loads(done.stdout.splitlines()[-1])
     assert len(found["joints"]) == 4
-    # About the play of two meshes: without the sun's teeth the gears are soon whole turns away.
+    # About the backlash of two meshes: without the sun's teeth the gears are soon whole turns away.
     for joint, off in found["joints"].items():
         assert 0 < off["off_max"] < 5e-3, joint
 

@@ -1,4 +1,4 @@
-"""What is said of the packages in one place is said in the others: versions, licences, files, commands."""
+"""All files agree about the packages: versions, licences, files, commands."""
 
 import importlib
 import json

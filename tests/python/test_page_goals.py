@@ -1,4 +1,4 @@
-"""Goals on the design page follow the hand, and the status says what is true of the design that is shown."""
+"""Goals on the design page follow the pointer, and the status is that of the shown design."""
 
 import json
 import re
@@ -143,7 +143,7 @@ def test_the_share_of_long_checks_that_is_done_stands_beside_the_seconds(browser
             tip = field(page, "arm.tip_distance")
             tip.fill("146")
             tip.press("Enter")
-            # Nothing is said of a share before there is any.
+            # No share is shown before there is one.
             expect(page.locator("#working")).to_be_visible()
             expect(page.locator("#working-time")).to_have_text(re.compile(r"^\d+ s$"))
             for share, words in [(0.129, "12 %"), (0.789, "78 %")]:
@@ -192,7 +192,7 @@ def test_a_drag_is_followed_whatever_its_speed(browser, tmp_path):
         assert exact(page) != before
 
 
-# Tells after each drawing whether the report says that it is of the design before.
+# Records after each drawing whether the report is marked as that of the previous design.
 MARKED = """
 addEventListener("DOMContentLoaded", () => {
   const clear = CanvasRenderingContext2D.prototype.clearRect;
@@ -219,7 +219,7 @@ def test_no_picture_stands_beside_the_report_of_another_design(browser, tmp_path
         field(page, "arm.tip_distance").press("ArrowUp")
         settled(page)
         marked, told = page.evaluate("[window.marked, window.told]")
-        # With the first drawing of the new design, and until what its checks say is shown.
+        # From the first drawing of the new design until the results of its checks are shown.
         assert marked[0]
         assert told[-1][0] is False
         assert before not in [figures for is_stale, figures in told if not is_stale]

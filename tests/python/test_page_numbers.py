@@ -31,7 +31,7 @@ def test_a_number_is_worked_out_in_the_unit_of_its_field(points):
         ("2.5", "mm", 2.5),
     ]:
         assert page.evaluate(WORKED, [text, unit]) == value, text
-    # What cannot be worked out stays as typed: the program says what is wrong with it.
+    # An expression without a value stays as typed: the program reports its error.
     for text, unit in [
         ("2*", "mm"),
         ("(2", "mm"),

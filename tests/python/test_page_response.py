@@ -56,7 +56,7 @@ def test_a_count_answers_in_whole_numbers(browser, tmp_path):
         ends = page.locator("#response-from, #response-to").evaluate_all("ends => ends.map(({ value }) => value)")
         assert ends == ["22", "26"]
         page.locator("#response-from").press("Enter")
-        # At this ratio the driven gear has no whole number of teeth next to an odd one, and the page says so.
+        # At this ratio the driven gear has no whole number of teeth next to an odd one, and the page reports this.
         names = [re.match(r"\s*(\d+)", row.inner_text())[1] for row in answered(page, 5).all()]
         assert names == ["24", "22", "23", "25", "26"]
 

@@ -16,7 +16,7 @@ from playwright.sync_api import expect
 from sample import looks, sampled
 
 DRAWS = re.compile(r"bodies, [\d,]+ triangles")
-# Chromium says of its own software that it is slow.
+# Chromium warns that its software renderer is slow.
 SOFTWARE = [flag for flag in FLAGS if flag != "--disable-gpu"]
 
 

@@ -168,7 +168,7 @@ def test_a_webm_close_to_a_mesh_of_three_arms_has_its_points_of_contact(browser,
         # Lines of the colour are two pixels wide; a dot is ten.
         dots = near.filter(ImageFilter.MinFilter(5)).tobytes()
         seen.append(frozenset(place for place, value in enumerate(dots) if value))
-    # In 4 % of the cycle a tooth edge carries the motion, for which no path is drawn.
+    # In 4 % of the cycle a tooth edge transmits the motion, for which no path is drawn.
     assert sum(len(places) > 4 for places in seen) >= count - 1, [len(places) for places in seen]
     # They move with the teeth, whatever else has their colour.
     assert not frozenset.intersection(*(places for places in seen if places))
@@ -202,7 +202,7 @@ def test_what_touches_in_a_mesh_is_in_the_files_of_the_picture(browser, tmp_path
                 if max(abs(a - b) for a, b in zip(pixels[x, y], wanted, strict=True)) < 12
             ]
             seen.append(frozenset(hits))
-        # Of the arms' gears a tooth edge carries the motion in 4 % of the cycle, as their check says.
+        # Of the arms' gears a tooth edge transmits the motion in 4 % of the cycle, as their check reports.
         assert sum(len(hits) > 20 for hits in seen) >= film.n_frames - (2 if design == ARMS else 0)
         # Of 24 teeth in 20 pictures every fifth is alike.
         assert len(set(seen)) >= 5

@@ -107,9 +107,9 @@ def test_every_made_part_has_a_drawing_a_solid_a_sheet_a_material_and_a_mass(nam
             assert row["files"] == "", row
 
 
-# All that has no sheet and no standard, with the reason: the design does not settle more of it than the remark says.
+# All parts without a sheet and a standard, with the reason: the design defines no more of them than the remark.
 GIVEN = {
-    "Shaft of the (driver|driven) gear": "its length is that of bearings of which the design says nothing",
+    "Shaft of the (driver|driven) gear": "its length is that of bearings that the design does not define",
     "Box with its rail": "the design gives its mass alone",
     "Stand": "it stands on what is around the machine",
     "Sleeve of a cam": "how it is fixed to the front plate is open",
@@ -850,7 +850,7 @@ HELD = {
 
 @pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) in HELD))
 def test_what_rings_hold_has_play_along_the_axis_whatever_the_tolerances_make_of_it(name, exported):
-    """Minimum play from the sheets alone: the shortest room between rings in their grooves, less the thickest parts."""
+    """Minimum axial clearance from the sheets alone: the shortest room between rings, minus the thickest parts."""
     folder = exported(name)
 
     def thickness_told(part):

@@ -49,7 +49,7 @@ tip_radius_coefficient = 0.3
 
 
 def checked(*arguments):
-    """The checker's answer: its exit status and what it says."""
+    """The answer of the checker: its exit status and output."""
     done = subprocess.run([sys.executable, CHECKER, *arguments], capture_output=True, text=True, check=False)
     assert done.stderr == "", done.stderr
     return done.returncode, done.stdout

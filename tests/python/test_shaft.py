@@ -228,7 +228,7 @@ def test_driven_by_forces_the_box_is_where_the_table_has_it(machines, name):
 @pytest.mark.campaign
 def test_turned_by_the_teeth_alone_the_box_follows(machines):
     result = played(machines / "moving-box", "--contact")
-    # The shaft is not put where it is: it stays behind by the play of the teeth, which do touch.
+    # The shaft is driven by the teeth alone: it stays behind by their backlash.
     assert json.loads((machines / "moving-box" / "motion.json").read_text())["input"]["joint"] == "driver_joint"
     assert result["joints"]["shaft_joint"]["off_max"] > 1e-5
     assert result["penetration_max_mm"] > 0

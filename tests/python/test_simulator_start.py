@@ -14,7 +14,7 @@ from sample import sampled
 SHIPPED = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
 FAMILIES = ["gear-pair", "three-arm", "moving-box", "spiral-shaft", "feeder"]
 MOST_FACES = 100_000
-# Gears rest in the middle of their backlash; convex bodies stand out of the flanks by a micrometre.
+# Gears rest in the middle of their backlash; convex bodies project from the flanks by a micrometre.
 DEEPEST = 3e-6
 
 

@@ -1,4 +1,4 @@
-"""The site builds without a warning, its pages do what they say, and no link is broken."""
+"""The site builds without a warning, its examples give the printed results, and no link is broken."""
 
 import json
 import re

@@ -15,7 +15,7 @@ ZERO = arb(0)
 
 
 class UndecidedError(Exception):
-    """A ball is too wide to say anything."""
+    """A ball is too wide for a statement."""
 
 
 class RejectedError(Exception):

@@ -59,7 +59,7 @@ class Box:
         return [Box(self.pair, self.stretch, *ends, self.suspects) for ends in ((self.start, cut), (cut, self.stop))]
 
     def meeting(self, number):
-        """What the file says of features that touch or nearly do, by number."""
+        """Data of the file about features that touch or nearly touch, by number."""
         if number not in self.known:
             self.known[number] = Meeting(self, self.stretch["meetings"][number])
         return self.known[number]
@@ -192,7 +192,7 @@ def is_parted(parted, a, b):
 
 
 def settle(box, shown, depth=DEEP):
-    """Number of parts of a box over which a claim is shown, none where it is not."""
+    """Number of parts of a box over which a claim is shown; None if it is not shown."""
     try:
         if shown(box):
             return 1

@@ -223,7 +223,7 @@ class Contour:
         return out, [error * half**j for j, error in enumerate(self.errors[piece])]
 
     def beyond(self, piece, place, reach):
-        """How far the contour leaves a piece's continuation within a reach of a place; none where it is far."""
+        """How far the contour leaves a piece's continuation within a reach of a place; None if it is far."""
         # A place known only roughly may reach beyond both ends.
         both = [self.past(piece, place, reach, end) for end in (-1, 1)]
         return None if None in both else both[0].max(both[1])

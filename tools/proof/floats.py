@@ -113,7 +113,7 @@ class Motion:
         return middle.real, abs((b1 * x).real) + abs((b2 * x).real) + rest
 
     def run(self, tangents):
-        """Bounds on the real part of turned unit vectors within a disc; none where it may be zero."""
+        """Bounds on the real part of turned unit vectors within a disc; None if it may be zero."""
         middle, radius = tangents
         middle, radius = self.b * middle, above(radius, self.swing)
         if not abs(middle.real) > 1.001 * radius:

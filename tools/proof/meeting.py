@@ -92,7 +92,7 @@ class Meeting:
         return floats.ends(x), floats.ends(-height)[0], floats.ends(slope)
 
     def parted(self, pairs, bend=0):
-        """Ranges of both contours that a parabola keeps apart, among pairs of pieces; none where it does not."""
+        """Ranges of both contours that a parabola keeps apart, among pairs of pieces; None if it does not."""
         self.k = self.bends[bend]
         start = self.height(self.touch)
         if not start < 0:

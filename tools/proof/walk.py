@@ -28,7 +28,7 @@ class Walk:
         self.slack, self.more = self.contour.slack, meeting.box.backlash * self.contour.bound
 
     def curve(self, piece, start, stop):
-        """Bounds on the second derivative of the height in x over a part; none where x does not run on."""
+        """Bounds on the second derivative of the height in x over a part; None if x is not monotone there."""
         hull = self.contour.hull(piece, start, stop)
         run = self.motion.run(hull.tangents) if hull.tangents is not None else None
         if run is None:
@@ -88,7 +88,7 @@ class Walk:
         return point, self.level(*place), self.slope(piece, first, place, way)
 
     def slope(self, piece, first, place, way):
-        """Float below the slope along a vector at a place; none where x does not run on with the walk."""
+        """Float below the slope along a vector at a place; None if x does not run in the direction of the walk."""
         direction, across, up = self.motion.turn(first, self.contour.errors[piece][1])
         run = below(abs(direction.real), -across)
         if not (run > 0 and self.sign * direction.real > 0):

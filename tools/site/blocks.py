@@ -37,7 +37,7 @@ SECONDS = 60
 
 
 class PageError(Exception):
-    """A block does not do what its page says."""
+    """The result of a block differs from its page."""
 
 
 @dataclass
@@ -162,7 +162,7 @@ class Run:
         return out.getvalue()
 
     def command(self, line: str, block: Block) -> str | None:
-        """Runs a command line; its status must be 0, or what the comment behind it says."""
+        """Runs a command line; its status must be 0, or the status in the comment after it."""
         line = line.strip().removeprefix("cargo run --release -- ") if "cargo run" in line else line.strip()
         if line.startswith(("export ", "check ")):
             line = f"centrode {line}"

@@ -85,7 +85,7 @@ def run_notebooks(out: Path) -> dict[str, int]:
 
 
 def render(out: Path) -> str:
-    """Hands the pages to mkdocs, which must have nothing to warn of; gives what it says."""
+    """Hands the pages to mkdocs, which must give no warning; returns its output."""
     # The generator's authors print an announcement of theirs with every build.
     environment = {**os.environ, "CENTRODE_PAGES": str(out / "pages"), "NO_MKDOCS_2_WARNING": "1", "NO_COLOR": "1"}
     environment["PYTHONPATH"] = os.pathsep.join([str(HERE), environment.get("PYTHONPATH", "")])

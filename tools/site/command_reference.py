@@ -1,4 +1,4 @@
-"""The reference of the command line, from what the program says of itself."""
+"""The reference of the command line, from the help texts of the program."""
 
 import re
 import subprocess

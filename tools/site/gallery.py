@@ -38,7 +38,7 @@ def make(designs: list[Path], pages: Path, binary: Path) -> None:
         "```",
         "",
         "*Good* means that the check finds no error. A published design can miss a goal of its own paper: its report",
-        "says which, and by how much.",
+        "reports which, and by how much.",
     ]
     for family, title in FAMILIES.items():
         chosen = [each for each in entries if each["family"] == family]

@@ -1,4 +1,4 @@
-"""Notebooks of the tutorial's pages that are all Python: made from the page, so both say the same, and executed."""
+"""Notebooks of the tutorial's pages that are all Python: made from the page, so both are identical, and executed."""
 
 import json
 import re

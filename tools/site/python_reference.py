@@ -27,7 +27,7 @@ PARTS = {"Args:": "Arguments", "Returns:": "Returns", "Raises:": "Raises", "Yiel
 
 
 class Stub:
-    """What the stub says of each name: its signatures, and of properties the type."""
+    """Data of the stub about each name: its signatures, and the type of properties."""
 
     def __init__(self, path: Path = STUB):
         """Reads the stub."""

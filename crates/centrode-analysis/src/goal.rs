@@ -8,8 +8,8 @@ use centrode_geometry::COMPUTED;
 
 /// Goal of a mechanism: a figure and the range required of it.
 ///
-/// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
-/// them.
+/// Margin and progress measure how well it is met: both rise as the figure comes nearer to its range, so an optimiser
+/// can follow them.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Goal {
     /// Number in its list, from one; 0 for a constraint of a search next to the goals.
@@ -25,7 +25,7 @@ pub struct Goal {
     #[serde(serialize_with = "figure::option")]
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
-    /// Minimum and maximum figure required; none where it is open.
+    /// Minimum and maximum figure required; `None` for an end without a limit.
     pub required: [Option<f64>; 2],
     /// Unit of the figures.
     pub unit: Unit,

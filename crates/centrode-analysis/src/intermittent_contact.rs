@@ -10,9 +10,10 @@ use nalgebra::Isometry2;
 
 use crate::progress::Steps;
 
-/// Maximum turn of the driven gear that is searched, rad.
+/// Maximum rotation of the driven gear that is searched, rad. A gear that can turn farther gets this value. A larger
+/// one takes longer.
 const FREE: f64 = 0.5;
-/// Number of corners of the polygon of a pin.
+/// Number of corners of the polygon of a pin. With fewer the polygon deviates more from the circle, more take longer.
 const PIN_CORNERS: u32 = 240;
 /// Number of steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to
 /// compute.
@@ -37,7 +38,7 @@ pub struct IntermittentContact {
     /// Maximum free angle in either direction while the driven gear moves and while it rests, rad, each with its input: local
     /// maxima of the columns are followed between the samples, and at the start and end of the motion both sides count.
     pub free: [Extreme; 2],
-    /// Minimum distance between a cam and a pin of nominal size, mm, with its input; `None` without cams.
+    /// Minimum distance between a cam and a pin of nominal size, mm, with its input; `None` if there are no cams.
     pub pin_clearance: Option<Extreme>,
     /// Maximum penetration, mm, with its input, followed like the free angles.
     pub deepest: Extreme,

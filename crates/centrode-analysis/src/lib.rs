@@ -3,7 +3,7 @@
 //! A check returns a [`Report`]: figures with units, and findings with measured value, limit, position in the cycle and
 //! remedy. The contact analysis shares no code with the generator of the teeth. [`prove`] writes a certificate of the
 //! contact for an independent checker. Only [`interference`] uses parry, for the distance of bodies.
-//! The crate knows no drawing and no file format, and changes no design.
+//! The crate contains no drawings and no file formats, and changes no design.
 
 mod cam;
 mod contact;

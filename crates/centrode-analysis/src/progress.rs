@@ -6,7 +6,7 @@ thread_local! {
     static CURRENT: RefCell<Option<Part>> = const { RefCell::new(None) };
 }
 
-/// Number of steps in which a share is stored.
+/// Number of steps in which a share is stored as an integer: finer than any display.
 const WHOLE: f64 = 1e6;
 
 /// Share of a check that is done, reported by the check to its listener. A clone belongs to the same check.
@@ -59,7 +59,7 @@ impl Progress {
 }
 
 impl Part {
-    /// The part that the calling thread fills; `None` without a listener.
+    /// The part that the calling thread fills; `None` if nothing listens to the progress.
     pub(crate) fn current() -> Option<Self> {
         CURRENT.with_borrow(Clone::clone)
     }

@@ -183,7 +183,7 @@ impl Table {
 
 /// All findings and figures of one mechanism.
 ///
-/// In JSON an infinite figure is a string, as [`JsonNumber`](crate::JsonNumber) says.
+/// In JSON an infinite figure is a string, see [`JsonNumber`](crate::JsonNumber).
 #[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Report {
     /// Findings, worst first.

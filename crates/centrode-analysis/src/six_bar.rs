@@ -40,7 +40,7 @@ pub struct RequiredSwing {
     /// Bounds of the lengths, mm.
     pub bounds: Lengths,
     /// The effector's pivot, mm. It must not be a variable: with the pivot on the chord between the slider's dead centres any
-    /// lengths swing the effector by half a turn, so that the objective means nothing.
+    /// lengths swing the effector by half a turn, so that the objective has no meaning.
     pub pivot: Point,
     /// Assembly branch of the four-bar.
     pub branch: Branch,

@@ -7,7 +7,7 @@ use centrode_formats::{
 use centrode_geometry::{LoopError, SolidError};
 use thiserror::Error as Explained;
 
-/// Why the files of a machine could not be made.
+/// Reason why the files of a machine could not be made.
 #[derive(Debug, Explained)]
 #[non_exhaustive]
 pub enum ExportError {

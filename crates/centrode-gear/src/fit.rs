@@ -18,7 +18,8 @@ use super::{
     teeth::{Counts, Layout, layout},
 };
 
-/// Weight of the mean contact ratio next to the minimum, so that flanks above the minimum are made deeper too.
+/// Weight of the mean contact ratio relative to the minimum, so that flanks above the minimum are made deeper too. A
+/// larger weight can lower the minimum; without it such flanks stay as they are.
 const MEAN: f64 = 1e-3;
 
 /// Parameter that is free.
@@ -57,17 +58,19 @@ const FREE: [Free; 3] = [
     },
 ];
 
-/// Maximum number of choices by the layout whose gears are cut.
+/// Maximum number of choices by the layout whose gears are cut. More take longer, fewer can miss the best.
 const CUT: usize = 12;
 
-/// Number of halvings of the first steps, and how many of them are omitted where gears are cut.
+/// Number of halvings of the first steps. More make the choice finer and slower.
 const HALVINGS: u32 = 5;
-const LEFT_OUT: u32 = 2;
+/// Number of halvings that are skipped when gears are cut: the first steps are then shorter, because the start is good.
+const SKIPPED_HALVINGS: u32 = 2;
 
-/// Difference of the contact ratio up to which two choices count as equal.
+/// Difference of the contact ratio up to which two choices count as equal: rounding. Then the first one stays.
 const TIE: f64 = 1e-9;
 
-/// Minimum gain of the contact ratio over that of the written values for which a choice replaces them.
+/// Minimum gain of the contact ratio over that of the written values for which a choice replaces them. A larger one
+/// rejects small gains, a smaller one changes designs for rounding.
 const BETTER: f64 = 1e-6;
 
 impl Free {
@@ -157,10 +160,10 @@ impl Fits<'_> {
             ..choice
         });
         let first = first.into_iter().chain(planned);
-        let ranked = climb(&free, first.collect(), LEFT_OUT, made);
+        let ranked = climb(&free, first.collect(), SKIPPED_HALVINGS, made);
         let best = ranked.first().filter(|best| {
-            let carries = best.merit > 1.0 || written == f64::NEG_INFINITY;
-            best.merit.is_finite() && carries && best.merit > written + BETTER
+            let has_contact = best.merit > 1.0 || written == f64::NEG_INFINITY;
+            best.merit.is_finite() && has_contact && best.merit > written + BETTER
         });
         best.map_or(base.clone(), |best| with(&best.values))
     }
@@ -260,7 +263,7 @@ struct Choice {
 }
 
 /// All choices that were tried, the best first: the given ones, and those found from the best of them by steps along each
-/// parameter. The steps are halved where none is better; the first steps are already halved `halvings` times.
+/// parameter. The steps are halved if no choice is better; the first steps are already halved `halvings` times.
 fn climb(
     free: &[&Free],
     mut tried: Vec<Choice>,

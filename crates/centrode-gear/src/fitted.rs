@@ -15,8 +15,8 @@ use super::{
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
-/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the flank ends in a knife edge whose
-/// radius of curvature is zero.
+/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the flank ends in a knife
+/// edge whose radius of curvature is zero. A larger value makes teeth shorter than necessary.
 const MIN_SPEED: f64 = 0.05;
 
 /// Data of the trimming.
@@ -28,7 +28,8 @@ pub(crate) struct Fitting<'a> {
     pub(crate) minimum_tip_width: f64,
 }
 
-/// Number of driver teeth whose passages are computed at a time.
+/// Number of driver teeth whose passages are computed at a time. It trades memory for an even load of the cores; the
+/// result does not depend on it.
 const BLOCK: usize = 32;
 
 /// Passage of a driver tooth and a driven tooth, by their numbers, with the crossings of their flanks.
@@ -120,7 +121,7 @@ impl Fitting<'_> {
         let middle = |[one, two]: [[f64; 2]; 2]| 0.25 * (one[0] + one[1] + two[0] + two[1]);
         // The two driven teeth next to the driver tooth mesh with it. Those beyond can still touch it where the pitch curve is
         // concave.
-        const BESIDE: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
+        const NEIGHBOURS: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
         let cycle = counts[0] / gcd(counts[0] as u32, counts[1] as u32) as usize * counts[1];
         let mut changed = 0;
         for from in (0..cycle).step_by(BLOCK) {
@@ -131,9 +132,10 @@ impl Fitting<'_> {
             let mut met = Vec::new();
             let to = cycle.min(from + BLOCK);
             poses.find(
-                [(from, BESIDE[0]), (to - 1, BESIDE[7])].map(|(k, by)| middle(pair(k, by).1)),
+                [(from, NEIGHBOURS[0]), (to - 1, NEIGHBOURS[7])]
+                    .map(|(k, by)| middle(pair(k, by).1)),
             );
-            for (k, by) in (from..to).flat_map(|k| BESIDE.map(|by| (k, by))) {
+            for (k, by) in (from..to).flat_map(|k| NEIGHBOURS.map(|by| (k, by))) {
                 checkpoint();
                 let ([i, j], crossings) = pair(k, by);
                 let passage = ToothPassage::about(
@@ -317,6 +319,7 @@ impl Fitting<'_> {
 /// At a roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
 /// curvature) and sin alpha - kappa v cos alpha (its mate's) are positive.
 fn reach(flank: &Flank<'_>, limit: f64) -> f64 {
+    /// Number of steps of the roll length. Fewer can step over a short part without contact, more take longer.
     const STEPS: u32 = 48;
     let (sin, cos) = flank.tool.pressure_angle.sin_cos();
     let (rolling, mate) = (flank.rolling, flank.member.mate());

@@ -32,7 +32,8 @@ impl Side {
     }
 }
 
-/// Maximum length rolled up to a height, relative to that of a rack.
+/// Maximum length rolled up to a height, relative to that of a rack. A smaller one misses the height on strongly curved
+/// pitch curves, a larger one can reach another tooth.
 const FARTHEST: f64 = 4.0;
 
 /// The exact flank, fillet, tip and root curves about one crossing of a pitch curve.
@@ -92,7 +93,8 @@ impl Flank<'_> {
     /// [`slower`](Self::slower) between breaks of the pitch curve. Samples the speed at steps that are short compared with the
     /// length that a tooth rolls, and near a step that is slower than its neighbours also at the minimum speed.
     fn slower_between(&self, minimum: f64, a: f64, b: f64) -> Option<f64> {
-        /// Steps per length that a rack rolls from the pitch line to its tip; also the minimum number of steps.
+        /// Steps per length that a rack rolls from the pitch line to its tip; also the minimum number of steps. Fewer
+        /// can step over a short slow part, more take longer.
         const STEPS: f64 = 12.0;
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let floor = minimum * sin;
@@ -233,6 +235,8 @@ impl Flank<'_> {
 
     /// [`at_height`](Self::at_height) by samples of the height along the flank, if Newton's method finds no suitable point.
     fn first_at_height(&self, height: f64, start: f64) -> Option<(f64, f64)> {
+        /// Number of samples of the height along the flank. Fewer can miss the first point at the height, more take
+        /// longer.
         const SAMPLES: u32 = 48;
         let far = self.farthest(height);
         let end = self.slower(0.0, start, far).unwrap_or(far);
@@ -358,6 +362,7 @@ impl Flank<'_> {
 
     /// Foot of the shortest normal from a point to the pitch curve, at most `reach` from an arc length.
     fn nearest(&self, point: &Point, arc: f64, reach: f64) -> Option<f64> {
+        /// Number of samples along the pitch curve. Fewer can miss a short normal, more take longer.
         const SAMPLES: u32 = 96;
         let ahead = |tau: f64| {
             let under = self.frame(tau);

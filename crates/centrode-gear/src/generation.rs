@@ -18,7 +18,8 @@ use super::{
     tool::Tool,
 };
 
-/// Relative difference below which a written centre distance is the computed one: it is written to a micrometre or so.
+/// Relative difference below which a written centre distance is the computed one: it is written to about a micrometre.
+/// A larger one hides contradictions, a smaller one reports rounded values.
 const DISTANCE: f64 = 1e-6;
 
 /// Pressure angle above that of any pair, rad: its involute function exceeds that of the maximum sum of shifts on the fewest
@@ -219,7 +220,7 @@ struct Circles {
 }
 
 impl Circles {
-    /// `None` without a tooth count, or if the pitch curves are not circles.
+    /// `None` if there is no tooth count, or if the pitch curves are not circles.
     fn of(design: &GearPairDesign, rolling: &Rolling) -> Option<Self> {
         let driver = f64::from(design.driver_tooth_count()?);
         let (n1, n2) = rolling.mean_ratio();

@@ -2,7 +2,7 @@
 //!
 //! At the root of the crate are pitch curves and their conjugates, tools, tooth profiles and pairs of gears. Disc cams
 //! and their followers are in [`cam`].
-//! The crate knows no machine of several gears, checks nothing and writes no file.
+//! The crate contains no machines of several gears, no checks and no file output.
 
 mod base_tangent;
 mod bore;

@@ -44,7 +44,7 @@ pub struct PitchPoint {
     pub driver_curvature: f64,
     /// Curvature of the driven gear's pitch curve, 1/mm.
     pub driven_curvature: f64,
-    /// Angle between the common normal and the driven gear's motion while the driver pushes that gear on, rad:
+    /// Angle between the common normal and the driven gear's motion while the driver pushes that gear forward, rad:
     /// |alpha - mu|, with mu the inclination of the pitch curve, tan mu = r'/r.
     pub pressure_angle: f64,
     /// Pressure angle while the driver pushes the driven gear back, rad: |alpha + mu|.
@@ -208,7 +208,7 @@ impl Limits {
     }
 }
 
-/// Inclination of the common tangent to the driver's circle, rad.
+/// Angle mu from the circle about the driver's axis to the common tangent of the pitch curves, rad: tan mu = r'/r.
 fn inclination(contact: &PitchContact) -> f64 {
     let (cos, sin) = contact.inclination;
     sin.atan2(cos)

@@ -74,7 +74,7 @@ impl OverPins {
 
 impl GearPair {
     /// Pins of a member's usual diameter in teeth of the maximum and the minimum thickness that [`Self::thickness_deviations`]
-    /// allow. `None` without deviations.
+    /// allow. `None` if the pair has no thickness deviations.
     ///
     /// A deviation E along the pitch curve moves each flank by `E cos(alpha) / 2` along its normal, because the flanks of an
     /// involute tool are equidistant.
@@ -146,6 +146,8 @@ impl Gear {
 
     /// Whether no part of the gear reaches into the pin.
     fn is_clear(&self, pin: &Pin, radius: f64) -> bool {
+        /// Number of intervals of a segment in each of which its distance from the pin has at most one minimum. Fewer
+        /// can miss a minimum, more take longer.
         const SAMPLES: u32 = 8;
         let clear = radius * (1.0 - 1e-9);
         self.outline().segments().iter().all(|segment| {

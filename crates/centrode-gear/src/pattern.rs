@@ -169,7 +169,7 @@ impl Mating {
         }
         let length = rolling.pitch_length(Member::Driver);
         let pitch = length / plan.driver.len() as f64;
-        // A circle mates itself anywhere.
+        // A circle is its own mate at any position.
         let arcs = match symmetry.folds {
             0 => (2.0 * plan.phase + 0.5) * pitch,
             _ => 0.5 * length,
@@ -196,14 +196,14 @@ impl Mating {
         holds.then_some(found)
     }
 
-    /// Tooth of the other gear that is the same as a tooth of one gear, and the whole turns before it.
+    /// Tooth of the other gear that is identical to a tooth of one gear, and the number of whole turns between them.
     pub(crate) fn other(&self, tooth: u32) -> (u32, i64) {
         let index = self.last - i64::from(tooth);
         let (turns, place) = (index.div_euclid(self.count), index.rem_euclid(self.count));
         (place as u32, turns)
     }
 
-    /// Arc length, on the other gear, of a point of one gear some whole turns before.
+    /// Arc length, on the other gear, of the point that has the arc length `arc` on one gear, minus `turns` whole turns.
     pub(crate) fn arc(&self, arc: f64, turns: i64) -> f64 {
         self.arcs - arc - turns as f64 * self.length
     }
@@ -333,7 +333,7 @@ mod tests {
 
     #[test]
     fn teeth_that_are_images_are_those_that_would_be_cut() {
-        // The formula is the same curve, of whose symmetry nothing is known; twelve teeth are undercut.
+        // The formula gives the same curve, but without a known symmetry; twelve teeth are undercut.
         let curves = [
             (
                 "kind = \"limacon\"\nmean_radius = 30\namplitude = 2\nlobes = 4",

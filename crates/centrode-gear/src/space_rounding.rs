@@ -10,17 +10,20 @@ use super::{
     tool::{Corner, Tool},
 };
 
-/// Ratio of a flank's active depth to its mate's reach, so that the mate's tip edge clears the fillet.
+/// Ratio of a flank's active depth to its mate's reach, so that the mate's tip edge clears the fillet. At 1 the edge
+/// touches the fillet by rounding; a larger ratio makes the fillet smaller.
 const SPARE: f64 = 1.02;
 
-/// Maximum rounding of a space's corner, as a share of its depth.
+/// Maximum rounding of a space's corner, as a share of its depth. At 1 the centre is on the pitch curve, and the fillet
+/// would be cut in one instant.
 const ROUNDEST: f64 = 0.8;
 
-/// Minimum generation speed, relative to a straight rack, at which a flank is extended below its active part.
+/// Minimum generation speed, relative to a straight rack, at which a flank is extended below its active part. At zero
+/// the flank would be undercut; a larger value ends the flank early.
 const SLOWEST: f64 = 0.01;
 
-/// Number of positions of a tip on its path from the flank to the root that are compared with the corner: at first, and if the
-/// tip comes near it.
+/// Number of positions of a tip on its path from the flank to the root that are compared with the corner: first, and if
+/// the tip comes near it. Fewer can miss contact, more take longer.
 const PLACES: [u32; 2] = [8, 32];
 
 /// Clearance that n samples may miss, relative to depth / n²: smaller values miss contacts, larger ones trim too much.

@@ -282,6 +282,7 @@ fn phase(
 
 /// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum remaining deviation.
 fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
+    /// Number of points of the pitch curve that are compared. Fewer can miss a deviation, more take longer.
     const SAMPLES: u32 = 96;
     if rolling.mean_ratio() != (1, 1) {
         return None;

@@ -11,10 +11,12 @@ use super::{
     tooth_passage::Candidate,
 };
 
-/// Number of chords, each with its bulge, that approximate a flank, and a tip.
+/// Number of chords, each with its bulge, that approximate a flank. Fewer make the penetration of two teeth less exact,
+/// more take longer.
 const FLANK_CHORDS: u32 = 24;
+/// Number of chords that approximate a tip.
 const TIP_CHORDS: u32 = 6;
-/// Number of chords within one circle, so that distant chords are skipped together.
+/// Number of chords within one circle, so that distant chords are skipped together. It only affects the time.
 const GROUP: usize = 6;
 /// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
 pub(super) struct ToothChords {
@@ -32,7 +34,8 @@ pub(super) struct ToothChords {
     last: Cell<usize>,
 }
 
-/// Multiple of the distance of a tooth's ends and corners from its middle within which all of it lies.
+/// Multiple of the distance of a tooth's ends and corners from its middle within which all of the tooth lies. A smaller
+/// one can cut off a convex flank, a larger one skips fewer teeth.
 const ROUND: f64 = 1.25;
 
 /// A circle around the working part of a tooth.

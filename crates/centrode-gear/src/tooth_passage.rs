@@ -12,21 +12,24 @@ use super::{
     tooth_chords::ToothChords,
 };
 
-/// Number of poses per pitch at which two teeth are compared.
+/// Number of poses per pitch at which two teeth are compared. Fewer can miss contact between poses, more take longer.
 const POSES: u32 = 20;
 /// Number of pitches, half of them on either side of the middle of a passage, within which teeth are compared. On pitch curves
 /// that are concave in turn, teeth can still touch some pitches before they mesh.
 const PITCHES: u32 = 16;
-/// Maximum path of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
+/// Maximum path of a corner in its mate's axes, pitches, from one pose to the next if teeth are trimmed. A longer path
+/// misses contact between poses, a shorter one takes longer.
 const WAY: f64 = 0.02;
-/// Penetration, as a share of the pitch, that may be an error of the approximation.
+/// Penetration, as a share of the pitch, that may be an error of the approximation by chords. A smaller one trims sound
+/// teeth, a larger one leaves teeth that interfere.
 const PENETRATION: f64 = 3e-5;
-/// Safety factor on a limiting reach; covers penetration between sampled poses.
+/// Safety factor on a limiting reach: covers penetration between sampled poses. At 1 teeth could still touch; a smaller
+/// factor trims more than necessary.
 const CACHED: f64 = 0.95;
-/// Minimum share of a whole reach by which a limiting reach is reduced.
+/// Minimum reduction of a limiting reach, as a share of the whole reach. A larger one trims more than necessary.
 const SPARE: f64 = 0.02;
 
-/// Number of equal parts of a tooth's reach in which trimming is counted.
+/// Number of equal parts of a tooth's reach in which trimming is counted. Fewer trim in coarse steps, more take longer.
 const PARTS: u32 = 1024;
 
 /// Roll lengths to the tip of the leading and the trailing flank of a tooth.
@@ -196,7 +199,7 @@ impl<'a> ToothPassage<'a> {
         poses.any(|pose| penetrate(pose, &teeth, self.pitch))
     }
 
-    /// Shortens one tooth or the other, whichever loses less reach, or both, until they penetrate nowhere.
+    /// Shortens one tooth or the other, whichever loses less reach, or both, until they do not penetrate.
     pub(crate) fn clear(&self, teeth: &[Candidate; 2]) -> [Reaches; 2] {
         let [driver, driven] = teeth.each_ref().map(Trimmed::new);
         let shapes = |[first, second]: [f64; 2]| {

@@ -18,7 +18,7 @@ pub struct SpiralShaftDesign {
     /// One line for drawings and reports.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Lead, mm a turn: the distance of neighbouring holes.
+    /// Lead, mm per turn: the distance of neighbouring holes.
     pub lead: f64,
     /// Holes across the box.
     pub holes: u32,

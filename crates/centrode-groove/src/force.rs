@@ -17,7 +17,7 @@ pub const GRAVITY: f64 = 9.81;
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Load {
-    /// Speed of the shaft, turns a minute.
+    /// Speed of the shaft, turns per minute.
     pub speed_rpm: f64,
     /// Mass moved along the shaft, kg.
     pub mass: f64,

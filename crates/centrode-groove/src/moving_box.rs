@@ -288,7 +288,7 @@ impl MovingBox {
         &self.shaft
     }
 
-    /// The turn of the shaft by the gears; `None` without gears.
+    /// The turn of the shaft by the gears; `None` if the box has no gears.
     #[must_use]
     pub fn drive(&self) -> Option<&EllipticDrive> {
         self.drive.as_ref()

@@ -29,7 +29,7 @@ pub struct SliderSpec {
     pub pin_fit: String,
     /// Material, for the drawing.
     pub material: String,
-    /// Heat treatment, for the drawing; left empty, none.
+    /// Heat treatment, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
     /// Density, kg/m^3.

@@ -122,7 +122,7 @@ proptest! {
         let by = [LawSpec::Harmonic, LawSpec::Cycloidal, LawSpec::Polynomial345];
         let reversal = reversal(halves, by[which].clone());
         let Ok(traverse) = Traverse::new(law(&spec), holes, &reversal, offset) else {
-            // A law far from even at the joint may turn the slider round more than once: it says so.
+            // A law far from even at the joint may reverse the slider more than once. Then there is an error.
             return Ok(());
         };
         let period = traverse.period();

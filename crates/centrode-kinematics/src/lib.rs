@@ -3,7 +3,7 @@
 //!
 //! A machine is a tree of links whose joints follow transmission functions of the input. It gives poses, closures,
 //! meshes and parts.
-//! The crate knows no gear tooth, no cam profile and no family of machine, and writes no file.
+//! The crate contains no gear teeth, no cam profiles, no families of machines and no file output.
 
 pub mod formula;
 pub mod linkage;

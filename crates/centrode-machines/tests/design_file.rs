@@ -123,7 +123,7 @@ fn only_the_families_asked_for_are_read() {
 
 #[test]
 fn every_bad_line_is_named_with_key_and_place() {
-    // The line to change, what it becomes, and what the message must say.
+    // The line to change, its new text, and the expected message.
     for (old, new, expected) in [
         (
             "eccentricity = 0.25",

@@ -1,4 +1,4 @@
-//! Angles: degrees in the file, radians in the program. A field says `#[serde(with = "degrees")]`.
+//! Angles: degrees in the file, radians in the program. Mark such a field with `#[serde(with = "degrees")]`.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserializer, Serialize, Serializer};

@@ -28,8 +28,9 @@ pub use family::{FAMILIES, InternalFault};
 use centrode_export::gear_pair::contact_data;
 use centrode_kinematics::machine::Datum;
 
-/// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
-/// mm. None for gears that do not hold each other, and for machines without a pair of their own.
+/// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash, mm.
+///
+/// Empty if the report has no finite numbers for them: for gears out of mesh, and for machines without a gear pair of their own.
 #[must_use]
 pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
     let range = |minimum: &str, maximum: &str| {

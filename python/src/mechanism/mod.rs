@@ -27,7 +27,7 @@ impl Mechanism {
     /// The machine of a design file's text, if it is of this class.
     ///
     /// Raises:
-    ///     DesignError: The design breaks a rule, or is of another family; its `key`, `line` and `column` say where.
+    ///     DesignError: The design breaks a rule, or is of another family; its `key`, `line` and `column` give the position.
     ///
     /// >>> import centrode as ct
     /// >>> ct.GearPair.from_toml(ct.template("gear-pair")).driver.tooth_count

@@ -111,13 +111,13 @@ impl MovingBox {
         SpiralShaft::object(py, self.0.shaft().clone())
     }
 
-    /// Eccentricity of the gears' pitch ellipses; None without gears.
+    /// Eccentricity of the gears' pitch ellipses; None if the box has no gears.
     #[getter]
     fn eccentricity(&self) -> Option<f64> {
         self.0.drive().map(|drive| drive.eccentricity)
     }
 
-    /// The pair of elliptic gears with finished teeth; None without gears.
+    /// The pair of elliptic gears with finished teeth; None if the box has no gears.
     ///
     /// >>> import centrode as ct
     /// >>> ct.MovingBox(speed_ratio=3).gear_pair().check().ok

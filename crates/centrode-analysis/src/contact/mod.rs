@@ -22,5 +22,5 @@ pub use cycle::{Contact, ContactExtremes, SeatJump};
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 pub(crate) use seat::Meshing;
 
-/// Samples per pitch if no flank is undercut or short.
+/// Samples per pitch if no flank is undercut or short. Fewer miss extremes between the samples, more take longer.
 const SAMPLES_PER_PITCH: u32 = 4;

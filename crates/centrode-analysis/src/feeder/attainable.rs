@@ -7,9 +7,9 @@ use centrode_machines::feeder::FeederDesign;
 use crate::six_bar::{BestTransmissionAngle, Lengths, MinimumWidening};
 use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
 
-/// Evaluations of the search for the best attainable transmission angle.
+/// Evaluations of the search for the best attainable transmission angle. Fewer can miss the best, more take longer.
 const ATTAINABLE: u64 = 20_000;
-/// Evaluations of the search for the minimum widening of the bounds.
+/// Evaluations of the search for the minimum widening of the bounds. Fewer can miss the minimum, more take longer.
 const WIDENING: u64 = 40_000;
 
 /// Largest minimum transmission angle that the bounds of a feeder's lengths allow.

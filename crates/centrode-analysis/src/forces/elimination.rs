@@ -1,4 +1,5 @@
-/// Maximum pivot of the scaled rows that counts as rounding: a force is then not determined.
+/// Maximum pivot of the scaled rows that counts as rounding: a force is then not determined. A larger limit refuses
+/// machines near a dead centre, a smaller one returns rounding as forces.
 const DEAD: f64 = 1e-13;
 
 /// Solution of linear equations, one per row with its right side last; `None` if the equations are singular within rounding.

@@ -189,8 +189,8 @@ impl Tie {
     }
 }
 
-/// Pitch point of two links (the pole of their relative motion), and unit vectors there along and across the pitch curves: the
-/// tangent turns the driven gear counter-clockwise about its centre.
+/// Pitch point of two links (the pole of their relative motion), with unit vectors along and across the pitch curves. A force
+/// along the tangent turns the driven gear counter-clockwise about its centre.
 ///
 /// The pitch curves roll on each other, so their relative acceleration at the pole is normal to them.
 fn pitch_point(

@@ -7,7 +7,8 @@ use centrode_gear::pitch::{Circle, PitchSpec};
 use super::{checked, remedy::is_of_teeth};
 use crate::{Contact, Report, Severity};
 
-/// Relative difference of the radii of a pitch curve up to which it is a circle.
+/// Relative difference of the radii of a pitch curve up to which it is a circle: rounding. For circles the remedies are
+/// shifts and other pressure angles.
 const ROUND: f64 = 1e-12;
 
 /// Minimum contact ratio of a changed pair that counts as a remedy: with less, gears are sensitive to errors of the centre

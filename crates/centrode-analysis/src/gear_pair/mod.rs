@@ -24,11 +24,13 @@ use crate::{Contact, ContactExtremes, Finding, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
 pub use remedies::{MAX_TEETH, PairRemedy, remedies};
-pub(crate) use remedies::{is_carried, minimum_count};
+pub(crate) use remedies::{flanks_transmit, minimum_count};
 
-/// Penetration, in modules, above which two outlines are reported to interfere.
+/// Penetration, in modules, above which two outlines are reported to interfere. It must be above the accuracy of the
+/// outlines.
 const PENETRATION: f64 = 1e-6;
-/// Transmission error, rad, above which contact is reported as lost.
+/// Transmission error, rad, above which contact is reported as lost. Ten times less reports rounding, ten times more
+/// hides contact on edges.
 const LOST: f64 = 1e-6;
 /// Transmission error, rad, below which lost contact is smaller than the accuracy of manufacture: a micrometre at 50 mm from
 /// the axis.
@@ -225,10 +227,11 @@ pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     )
 }
 
-/// Share of the cycle without contact of flanks above which the pair does not work.
-const CARRIED: f64 = 0.5;
+/// Share of the cycle without contact of flanks above which `contact-lost` is always an error. Below it the severity
+/// depends on the deviation.
+const MAX_LOST_SHARE: f64 = 0.5;
 
-/// Pressure angle above which friction is commonly considered a danger, rad.
+/// Pressure angle, rad, above which it is reported, because friction is commonly considered a danger there.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
 /// Transmission error due to backlash, rad, at most [`SLIGHT_TRANSMISSION_ERROR`]. Backlash thins the flanks, so that edges
@@ -325,13 +328,13 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         reverse
     };
     let share = extremes.lost;
-    // If flanks carry the motion everywhere, edges deviate by no more than the effect of thinned teeth.
+    // If flanks transmit the motion everywhere, edges deviate by no more than the effect of thinned teeth.
     let allowed = if share == 0.0 {
         LOST.max(thinned(pair))
     } else {
         LOST
     };
-    // Gears that interfere carry no motion at all.
+    // Gears that interfere transmit no motion at all.
     if worst.value.is_finite() && worst.value > allowed && !interferes {
         let message = format!(
             "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
@@ -349,7 +352,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         );
         Finding::new(
             "contact-lost",
-            if share > CARRIED {
+            if share > MAX_LOST_SHARE {
                 Severity::Error
             } else {
                 Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)

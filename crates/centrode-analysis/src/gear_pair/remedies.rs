@@ -1,4 +1,4 @@
-//! Tooth counts from which the flanks alone carry the motion.
+//! Tooth counts from which the flanks alone transmit the motion.
 
 use centrode_gear::GearPair;
 use centrode_gear::design::{Addendum, Fit, GearPairDesign};
@@ -6,25 +6,28 @@ use centrode_gear::design::{Addendum, Fit, GearPairDesign};
 use super::{PENETRATION, thinned};
 use crate::Contact;
 
-/// Transmission error up to which the flanks carry the motion by themselves, rad.
-const CARRIED: f64 = 1e-9;
+/// Maximum transmission error of a pair whose flanks alone transmit the motion, rad. If it is much smaller, rounding
+/// counts as an error. If it is much larger, contact on edges that is only a little off the law is accepted.
+const MAX_ERROR: f64 = 1e-9;
 /// Maximum tooth count of a driver that [`remedies`] tries.
 pub const MAX_TEETH: u32 = 600;
 
-/// Overlap of the pitch curves, modules, above which no teeth are searched.
+/// Overlap of the pitch curves, modules, above which no teeth are searched. A larger value starts long searches without a
+/// result. A smaller one finds no remedy for pairs that more teeth would repair.
 const OVERLAP: f64 = 0.5;
 
-/// Maximum range of counts, from one that does not carry the motion to one that does, in which every count is tried.
+/// Maximum number of counts between one that fails and one that works at which every count is tried. A larger value costs more
+/// analyses. A smaller one can miss a smaller count that works.
 const SCANNED: u32 = 16;
 
-/// Tooth count from which the flanks of a kind of teeth alone carry the motion of a pair, and the design changed to it.
+/// Tooth count from which the flanks of a kind of teeth alone transmit the motion of a pair, and the design changed to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
     /// Numbers that are chosen in addition to the height, and written in the design.
     pub fit: Vec<Fit>,
-    /// Tooth count of the driver at which the flanks carry the motion: with one step less they do not. A larger count may fail
+    /// Tooth count of the driver at which the flanks transmit the motion: with one step less they do not. A larger count may fail
     /// again.
     pub minimum_tooth_count: u32,
     /// The design with such teeth, on pitch curves of the same size: with the given tooth count if that is enough, otherwise
@@ -32,18 +35,19 @@ pub struct PairRemedy {
     pub design: GearPairDesign,
 }
 
-/// Finds the tooth counts from which the flanks alone carry the motion of a pair: of full teeth, of fitted teeth, and of
+/// Finds the tooth counts from which the flanks alone transmit the motion of a pair: of full teeth, of fitted teeth, and of
 /// fitted teeth with chosen phase, thickness and pressure angle.
 ///
-/// The flanks carry the motion if they face each other as designed at all samples of [`Contact::analyse`], nothing penetrates,
+/// The flanks transmit the motion if they face each other as designed at all samples of [`Contact::analyse`], nothing penetrates,
 /// and the transmission error by [`Contact::extremes`] is at most 1e-9 rad. For flanks thinned by backlash a larger error is
 /// allowed, up to 2e-5 rad.
 ///
-/// The count grows by a quarter from the given one until the flanks carry the motion. Between the last failed count and this
-/// one, every count is tried if there are few; otherwise the interval is halved. The count found carries the motion and the
-/// one below it does not, but a larger count may fail again, and a smaller one may carry. A kind of teeth that fails up to
-/// [`MAX_TEETH`] is omitted. Each count tried costs a pair and its contact. A choice (`teeth.fit`) is searched only if the
-/// given number of fitted teeth fails: up to the count from which fitted teeth carry, and up to twice the given count.
+/// If the given count fails, the count grows by a quarter until the flanks transmit the motion. If it works, the count falls by a
+/// third until it fails. Between the last failed count and the working one, every count is tried if there are few; otherwise the
+/// interval is halved. The count found works and the one below it does not, but a larger count may fail again, and a smaller one
+/// may work. A kind of teeth that fails up to [`MAX_TEETH`] is omitted. Each count tried costs a pair and its contact. A choice
+/// (`teeth.fit`) is searched only if the given count of fitted teeth fails. The search ends below the count found for fitted teeth,
+/// or at twice the given count. If no count of fitted teeth was found, only the given count is tried.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     // If pitch curves overlap by more than half a module, teeth of that size or smaller cannot roll.
@@ -90,21 +94,23 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     found
 }
 
-/// The minimum tooth count at which the flanks of a design carry its motion, searched from `written` on and up to `most`.
+/// A tooth count at which the flanks alone transmit the motion, but not with one step less (`mean_ratio[1]` teeth). The search
+/// starts at `written`: downwards if this count works, otherwise upwards to `most`. `None` if no count tried up to `most` works.
+/// Counts further below may work again.
 pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
-    let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
+    let works = |steps: u32| flanks_transmit(&design.with_tooth_count(steps * step));
     let first = (written / step).max(1);
     let (mut low, mut high) = (0, first);
-    let failed = if carries(first) {
+    let failed = if works(first) {
         low = high * 2 / 3;
-        while low > 0 && carries(low) {
+        while low > 0 && works(low) {
             (low, high) = (low * 2 / 3, low);
         }
         low
     } else {
-        while low == 0 || !carries(high) {
+        while low == 0 || !works(high) {
             // The last count tried was the maximum.
             if high >= most / step {
                 return None;
@@ -113,16 +119,16 @@ pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) ->
         }
         first
     };
-    // Mostly all counts above some count carry. If few are left, each is tried.
+    // Usually all counts above some count work. If few are left, each is tried.
     if high - failed <= SCANNED {
         return (failed + 1..high)
-            .find(|&steps| carries(steps))
+            .find(|&steps| works(steps))
             .or(Some(high))
             .map(|steps| steps * step);
     }
     while high - low > 1 {
         let middle = low + (high - low) / 2;
-        if carries(middle) {
+        if works(middle) {
             high = middle;
         } else {
             low = middle;
@@ -131,25 +137,25 @@ pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) ->
     Some(high * step)
 }
 
-/// Whether the flanks alone carry the motion of a design.
-pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
+/// Whether the flanks alone transmit the motion of a design.
+pub(crate) fn flanks_transmit(design: &GearPairDesign) -> bool {
     let Ok(pair) = GearPair::resolve(design) else {
         return false;
     };
-    // Most designs that do not carry fail at the few samples of this first analysis.
+    // Most designs that do not work fail at the few samples of this first analysis.
     is_sampled(&pair, &Contact::sampled(&pair, 1)) && {
         let found = Contact::analyse(&pair);
         is_sampled(&pair, &found) && is_exact(&pair, &found)
     }
 }
 
-/// Whether the flanks carry the motion, by the extremes of a contact.
+/// Whether the flanks transmit the motion, by the extremes of a contact.
 fn is_exact(pair: &GearPair, found: &Contact) -> bool {
     let found = found.extremes(pair);
     let allowed = if found.lost > 0.0 {
-        CARRIED
+        MAX_ERROR
     } else {
-        CARRIED.max(thinned(pair))
+        MAX_ERROR.max(thinned(pair))
     };
     let deepest = PENETRATION * pair.module();
     let errors = [found.transmission_error, found.reverse_transmission_error];
@@ -158,10 +164,10 @@ fn is_exact(pair: &GearPair, found: &Contact) -> bool {
         && found.clearance.value.min(found.fillet_clearance.value) >= -deepest
 }
 
-/// Whether the flanks carry the motion at all samples of a contact: the driven gear is on its law, apart from the error that
+/// Whether the flanks transmit the motion at all samples of a contact: the driven gear is on its law, apart from the error that
 /// backlash causes on flanks that face each other as designed.
 fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
-    let play = CARRIED.max(thinned(pair));
+    let thinned_error = MAX_ERROR.max(thinned(pair));
     let errors = found.transmission_error.iter();
     let mut errors = errors
         .zip(&found.reverse_transmission_error)
@@ -169,7 +175,7 @@ fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
     errors.all(|((on, back), on_flanks)| {
-        let allowed = if on_flanks { play } else { CARRIED };
+        let allowed = if on_flanks { thinned_error } else { MAX_ERROR };
         on.abs().max(back.abs()) <= allowed
     }) && found
         .penetration

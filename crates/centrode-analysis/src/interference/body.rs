@@ -19,7 +19,7 @@ pub struct Body {
     boundary: Boundary,
 }
 
-/// Share of a circle's size by which its rounded figures may be off.
+/// Relative rounding of a circle's radius and centre. The circle is enlarged by it, so that no crossing is missed.
 const ROUNDING: f64 = 1e-14;
 
 /// Reason why outlines make no body.

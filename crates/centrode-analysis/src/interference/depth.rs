@@ -87,7 +87,8 @@ impl PartialEq for BoundaryPiece {
 
 impl Eq for BoundaryPiece {}
 
-/// Number of parts of boundaries that are examined before the tolerance is doubled.
+/// Number of parts of boundaries that are examined before the tolerance is doubled. Fewer make the result less exact,
+/// more take longer.
 const MAX_STEPS: u32 = 200_000;
 
 /// Deepest point of either boundary in the other body while the input runs, to within `tolerance`. Only points deeper than

@@ -7,7 +7,8 @@ use super::{
     Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PhaseShifts, PoseJet,
 };
 
-/// Range of the input that counts as one position, rad.
+/// Range of the input that counts as one position, rad. A larger range includes motion of the links, a smaller one is
+/// lost in rounding.
 const MOMENT: f64 = 1e-9;
 
 /// Reason why the clearance of two links cannot be determined.
@@ -303,7 +304,8 @@ mod tests {
         let tolerance = Tolerance::new(1e-4).expect("positive");
         let found = between_links(&machine(5.0), [2, 3], tolerance);
         let found = found.expect("determined").expect("level");
-        // The crank's pin is nearest at 50 mm; the squares keep level and reach 5 and 10 mm towards each other.
+        // The crank points at the block: the pin is at x = 50 mm, the block at x = 80 mm. The squares stay level and reach 5 and
+        // 10 mm towards each other: 80 - 50 - 15 = 15 mm.
         assert!((found.minimum - 15.0).abs() < 1e-4, "{found:?}");
         assert!(found.lower_bound <= 15.0 && found.lower_bound > 15.0 - 1e-4);
         // There 25 mm/rad^2 of the turn squared are within the tolerance.

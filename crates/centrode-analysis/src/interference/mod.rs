@@ -135,7 +135,7 @@ pub fn clearance(
     Ok(found.closest.ok_or(nowhere)?)
 }
 
-/// Minimum clearance among pairs of bodies, each given by two indices into `bodies`; `None` without pairs.
+/// Minimum clearance among pairs of bodies, each given by two indices into `bodies`; `None` if there are no pairs.
 ///
 /// Faster than [`clearance`] of every pair: each pair is searched only for clearances below the minimum of the pairs before
 /// it.

@@ -140,8 +140,10 @@ pub struct Tabulated {
     deviation: (f64, f64),
 }
 
-/// Initial number of cells of a table within a tolerance; `MOST` is the maximum number.
+/// Initial number of cells of a table within a tolerance. Fewer can miss a short motion, more take longer.
 const FEWEST: usize = 360;
+/// Maximum number of cells of a table: limits its memory and time. Then the table can deviate by more than the
+/// tolerance.
 const MOST: usize = 360 << 8;
 
 /// Reason why a motion cannot be tabulated.

@@ -14,7 +14,8 @@ use super::body::Body;
 use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving, Patience};
 
-/// Number of pairs of circles or edges that are examined before the tolerance is doubled.
+/// Number of pairs of circles or edges that are examined before the tolerance is doubled. Fewer make the result less
+/// exact, more take longer.
 const MAX_STEPS: u32 = 50_000_000;
 
 /// Result of the search of one pair.

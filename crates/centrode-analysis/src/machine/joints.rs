@@ -9,7 +9,8 @@ use centrode_machines::machine::{DyadKind, Machine};
 use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
-/// Maximum distance of a dead centre from the extreme found by positions alone, as a share of a turn.
+/// Maximum distance of a dead centre from the extreme found by positions alone, as a share of a turn. With a smaller
+/// one the change of sign of the speed is outside, with a larger one another dead centre can be inside.
 const NEAR: f64 = 1e-5;
 /// Reports swings and strokes of joints that move back and forth, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {

@@ -39,7 +39,8 @@ use crate::rounding::exceeds;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Report, Severity, Table, Unit};
 
-/// Number of parts of a turn of the input. In each part a motion has few extremes.
+/// Number of parts of a turn of the input. In each part a motion has few extremes. Fewer parts can miss extremes, more
+/// take longer.
 const PARTS: u32 = 16;
 /// Minimum transmission angle of a dyad, degrees: below it friction may lock the dyad.
 const HOLDS_BADLY: f64 = 30.0;
@@ -222,7 +223,7 @@ impl<'a> Made<'a> {
         self.pairs.get_or_init(|| pairs::checked(self.composed))
     }
 
-    /// The forces; `None` without links.
+    /// The forces; `None` if there is no `machine`, because a plate is not a solid.
     fn loaded(&self) -> Option<&Result<Loaded, ForcesError>> {
         let made = || {
             self.machine()

@@ -8,14 +8,15 @@ use centrode_geometry::checkpoint;
 use centrode_machines::machine::MachineDesign;
 
 use crate::MAX_TEETH;
-use crate::gear_pair::{is_carried, minimum_count};
+use crate::gear_pair::{flanks_transmit, minimum_count};
 
-/// First tooth count tried.
+/// First tooth count tried for fitted teeth. The search goes down from here if they work, otherwise up.
 const FIRST: u32 = 40;
-/// Maximum number of full teeth: if more would be needed, fitted teeth are larger.
+/// Maximum number of full teeth of a driver. If more would be needed, fitted teeth are tried, because they are larger.
+/// With a larger limit, full teeth become smaller than fitted ones.
 const MAX_FULL: u32 = 120;
 
-/// Teeth of a pair whose flanks alone carry its motion.
+/// Teeth of a pair whose flanks alone transmit its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundTeeth {
     /// Name of the pair.
@@ -42,7 +43,7 @@ pub enum NoSoundTeeth {
         /// Reason.
         error: Box<GearPairError>,
     },
-    /// The flanks do not carry the motion with any tooth count tried.
+    /// The flanks do not transmit the motion with any tooth count tried.
     #[error(
         "pair {pair}: full-height teeth are undercut above a module of {full_module:.4} mm, and fitted teeth do not keep contact on their flanks with any number up to {MAX_TEETH}. Change axis, bend or split, or smooth the path; for a drive, leave more room between its goals"
     )]
@@ -54,8 +55,8 @@ pub enum NoSoundTeeth {
     },
 }
 
-/// Gives the pairs of a machine that `of` selects by name the largest teeth whose flanks alone carry the motion: full teeth,
-/// none undercut or short, if at most 120 teeth of the driver are enough; otherwise fitted teeth.
+/// Gives the pairs of a machine that `of` selects by name the largest teeth whose flanks alone transmit the motion:
+/// full teeth without undercut or short flanks, if at most 120 teeth of the driver are enough; otherwise fitted teeth.
 ///
 /// # Errors
 /// [`NoSoundTeeth`] with the pair and the largest module of full teeth.
@@ -106,9 +107,9 @@ fn sound(
     Ok(teeth(Addendum::Fitted, count))
 }
 
-/// The minimum count of full teeth that are sound and carry the motion. `borne` is the count at the largest module that the
-/// pitch curves allow.
-fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
+/// The minimum count of full teeth that are sound and transmit the motion. `fewest` is the count at the largest module
+/// that the pitch curves allow.
+fn full(design: &GearPairDesign, pair: &GearPair, fewest: f64) -> Option<u32> {
     let mut full = design.clone();
     full.teeth.addendum = Addendum::Full;
     let is_sound = |count: u32| {
@@ -116,10 +117,10 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
         counted.is_ok_and(|gears| gears.iter().all(|gear| gear.unsound == 0))
     };
     // NaN gives no count either.
-    if borne.is_nan() || borne > f64::from(MAX_FULL) {
+    if fewest.is_nan() || fewest > f64::from(MAX_FULL) {
         return None;
     }
-    let mut count = (borne.ceil() as u32).max(3);
+    let mut count = (fewest.ceil() as u32).max(3);
     // Fewer teeth may be sound if their flanks miss the sharpest points of the pitch curves.
     while count > 3 && is_sound(count - 1) {
         checkpoint();
@@ -127,7 +128,7 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     }
     (count..=MAX_FULL).find(|&count| {
         checkpoint();
-        is_sound(count) && is_carried(&full.with_tooth_count(count))
+        is_sound(count) && flanks_transmit(&full.with_tooth_count(count))
     })
 }
 

@@ -14,7 +14,8 @@ use crate::Report;
 /// Height by which parts that touch may overlap, mm: rounding.
 const LEVEL: f64 = 1e-6;
 
-/// Number of steps of the cycle at which a pin is tested to be within a slot.
+/// Number of steps of the cycle at which a pin is tested to be within a slot. Fewer can miss a pin that leaves it, more
+/// take longer.
 const SLOT_STEPS: u32 = 360;
 
 /// Kind of the part that surfaces belong to.

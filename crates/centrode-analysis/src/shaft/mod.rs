@@ -19,7 +19,7 @@ pub use moving_box::check_moving_box;
 
 /// Maximum pressure angle, rad, of a follower in a straight guide: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
-/// Misplacement, mm, up to which a hole counts as met.
+/// Misplacement, mm, up to which a hole counts as met: rounding.
 const MET: f64 = 1e-6;
 
 /// Checks a spiral shaft: its motion while picking, its crossings, slider and forces.

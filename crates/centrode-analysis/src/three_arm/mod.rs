@@ -31,7 +31,8 @@ pub use gear_train::{TrainTeeth, carrier_turn};
 pub use goals::three_arm_goals;
 pub use variants::{Variants, VariantsError};
 
-/// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
+/// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis. A coarser one makes the
+/// clearance less exact, a finer one takes longer.
 const ARM_TOLERANCE: f64 = 1e-4;
 
 /// Checks a three-arm mechanism: its goals, working points, arms, teeth, cam, bearings and screws.
@@ -291,7 +292,7 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
     }
 }
 
-/// Reports every goal that could not be checked: none passes unchecked.
+/// Reports every goal that could not be checked: an unchecked goal never passes.
 fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     let reason = |goal: &Goal| match &*goal.name {
         "arm-clearance" if mechanism.arms() == 1 => (Severity::Note, "there is no other arm"),

@@ -184,7 +184,7 @@ fn data(feeder: &Feeder) -> Vec<Datum> {
         ("minimum transmission angle", degrees(minimum)),
         ("crank at rest", degrees(feeder.start())),
         (
-            "cycles a minute",
+            "cycles per minute",
             format!("{:.4}", feeder.cycles_per_minute()),
         ),
     ]

@@ -51,7 +51,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     }
 }
 
-/// Spacer between the plates of the frame; `None` without screws.
+/// Spacer between the plates of the frame; `None` if the frame has no screws.
 pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
     let spec = &feeder.design().plates;
     let screws = feeder.frame_screws()?.ok()?;

@@ -194,7 +194,8 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     data
 }
 
-/// Half of the decrease of the centre distance that the normal backlash of a pair permits, mm; `None` without backlash.
+/// Half of the decrease of the centre distance that the normal backlash of a pair permits, mm; `None` if the pair has
+/// no backlash.
 pub(crate) fn half_backlash(pair: &GearPair, backlash: f64) -> Option<f64> {
     let [minimum, _] = pair.backlash_limits(backlash);
     (minimum > 0.0).then(|| 0.5 * shorter(pair, minimum))

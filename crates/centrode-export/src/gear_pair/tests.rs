@@ -391,7 +391,7 @@ fn a_centre_distance_without_backlash_may_only_be_longer() {
     // IT8 of 30 to 50 mm is 39 um.
     assert_eq!(data[0].value, "40 +0.039 / 0");
     assert_eq!(half_backlash(&pair, 0.0), None);
-    let half = half_backlash(&pair, 0.1).expect("some play");
+    let half = half_backlash(&pair, 0.1).expect("some backlash");
     let sine = 20_f64.to_radians().sin();
     assert!((half - 0.1 / (4.0 * sine)).abs() < 1e-12);
 }

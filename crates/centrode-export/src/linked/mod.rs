@@ -32,7 +32,7 @@ pub use spatial::spatial;
 #[cfg(test)]
 pub(crate) use {model::simulated, motion::lines};
 
-/// Name of the simulator models, without its end.
+/// File name of the simulator models, without extension.
 const MODEL: &str = "machine";
 
 /// Adds the table of motion with its description, the parts list and, if requested, URDF and MJCF with the STL files they show

@@ -206,7 +206,7 @@ fn note(
     };
     if let Some(excess) = of(true) {
         note += &format!(
-            " Teeth touch as convex bodies, of flanks and tip without fillets, over a hub without bore; these stand out of the \
+            " Teeth touch as convex bodies, of flanks and tip without fillets, over a hub without bore. These project from the \
              gears by at most {excess:.1e} mm."
         );
     }
@@ -217,7 +217,7 @@ fn note(
     }
     if let Some(off) = seen.iter().map(|seen| seen.off).reduce(f64::max) {
         note += &format!(
-            " Meshes to be seen are within {off:.1e} mm, as finely as {MAX_FACES} triangles each allow."
+            " Meshes for display deviate by at most {off:.1e} mm. If possible, each has at most {MAX_FACES} triangles."
         );
     }
     if !machine.note.is_empty() {

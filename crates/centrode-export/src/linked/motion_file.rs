@@ -39,7 +39,7 @@ pub struct InputWords {
     pub column: String,
     /// Angle after which the table repeats, rad.
     pub period_rad: f64,
-    /// Speed of the design, rad/s; 1 where it says nothing.
+    /// Speed of the design, rad/s; 1 if the design gives none.
     pub speed_rad_per_s: f64,
     /// The joint that drives all others.
     pub joint: Option<String>,
@@ -63,7 +63,7 @@ pub struct ColumnWords {
 pub struct Interpolation {
     /// `cubic Hermite`: by the values and rates of two rows.
     pub kind: &'static str,
-    /// Maximum path of a link off its own by straight lines between rows instead, mm.
+    /// Maximum deviation of a link from its path if the table is interpolated by straight lines instead, mm.
     pub linear_error_max_mm: f64,
 }
 
@@ -84,9 +84,9 @@ pub struct JointWords {
     pub rate_factor: f64,
     /// The straight line nearest to its law.
     pub linear: LinearWords,
-    /// The joint whose position settles this one's through a cam or groove.
+    /// The joint whose position determines the position of this one through a cam or groove; `None` if the input does.
     pub leader: Option<String>,
-    /// Column of the torque against it, N mm.
+    /// Column of the torque that resists this joint, N mm; `None` if the table has none.
     pub load: Option<String>,
 }
 

@@ -3,7 +3,7 @@
 
 python play_mujoco.py                    every joint follows its law
 python play_mujoco.py --drive            forces move the joints, found from the laws by inverse dynamics
-python play_mujoco.py --contact          the input turns evenly; teeth and the closures of loops carry the rest
+python play_mujoco.py --contact          the input turns evenly; teeth and the closures of loops move the rest
 python play_mujoco.py --check            no window: prints how far joints and points are off the table
 
 Needs: pip install mujoco numpy; --plot also matplotlib
@@ -63,7 +63,7 @@ class Machine:
                 self.model.geom_conaffinity[of_body] = 0
 
     def release(self, options):
-        """Leaves free what teeth and closed loops carry, with a load at the end of a chain of gears."""
+        """Leaves free the joints that teeth and closed loops move, with a load at the end of a chain of gears."""
         about, model, meshes = self.law.about, self.model, self.meshes
         carried = [mesh["joint"] for mesh in meshes]
         loops = [joint for closure in about["closures"] for joint in closure["joints"]]
@@ -118,7 +118,7 @@ class Machine:
         self.travelled = travel
 
     def carry(self, step):
-        """One step of what teeth and closures carry: all else by its law, or by what leads it."""
+        """One step of the joints that teeth and closures move. The others follow their law or their leading joint."""
         ahead = self.travelled + self.speed * step
         for name in self.held:
             joint, now, then = self.joints[name], self.law(name, self.travelled), self.law(name, ahead)
@@ -159,7 +159,7 @@ class Machine:
         return 1e3 * max(0.0, *(-self.data.contact.dist), 0.0)
 
     def gap(self):
-        """Largest distance of the two sides of a closed loop's pin, mm; 0 without loops."""
+        """Largest distance of the two sides of a closed loop's pin, mm; 0 if there are no loops."""
         model, data = self.model, self.data
         gaps = [0.0]
         for loop in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_CONNECT):

@@ -16,12 +16,12 @@ pub(crate) struct Hole {
     pub(crate) fit: String,
     /// Permitted deviation of its position in any direction, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
-    /// Permitted deviation (±) of its distance from another hole of the plate, mm, where two gears mesh. `None` without such
-    /// gears.
+    /// Permitted deviation (±) of its distance from another hole of the plate, mm, where two gears mesh. `None` if no
+    /// gears mesh there.
     pub(crate) apart: Option<f64>,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
-    /// Width of its keyway, mm; 0 without one.
+    /// Width of its keyway, mm; 0 if it has none.
     pub(crate) keyed: f64,
     /// Further lines next to it.
     pub(crate) notes: Vec<String>,

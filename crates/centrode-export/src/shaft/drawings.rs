@@ -221,7 +221,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
             groove.traverse().turns()
         ),
         format!(
-            "slider travels {:.4} to {:.4} mm; outline cut at 90 deg, angle zero of the groove towards the viewer",
+            "slider positions {:.4} to {:.4} mm; outline: section through the groove at 90 and 270 deg; groove angle 0 faces the viewer",
             groove.traverse().reach().0,
             groove.traverse().reach().1
         ),

@@ -21,7 +21,7 @@ pub fn program(shaft: &SpiralShaft, tolerance: Tolerance) -> String {
     let mut text = format!(
         "(groove of {name}: RS-274/NGC, millimetres, degrees)\n\
          (X along the shaft, zero where the box is at its first hole; A turns the shaft; Z zero on its axis)\n\
-         (end mill of {diameter} mm; chords within {tolerance} mm; {turns} turns of A a pass)\n\
+         (end mill of {diameter} mm; chords within {tolerance} mm; {turns} turns of A per pass)\n\
          G21 G90 G17 G40 G49\nG94\n",
         name = shaft.design().name,
         tolerance = tolerance.mm(),

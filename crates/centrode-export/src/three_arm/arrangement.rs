@@ -247,7 +247,7 @@ fn data(parts: &Parts<'_>) -> Vec<Datum> {
         ("arms pick at a carrier turn of", "", picked),
         ("and plant at", "", planted),
         (
-            "seedlings a minute",
+            "seedlings per minute",
             "",
             number(design.work.rate_per_minute),
         ),

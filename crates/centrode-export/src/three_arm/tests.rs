@@ -293,7 +293,7 @@ fn the_path_left_on_the_ground_goes_through_the_tip_at_every_input() {
         let off = off.fold(f64::INFINITY, f64::min);
         assert!(off < 1e-3, "the way passes {tip} at {off} mm at {phi}");
     }
-    // One arm plants once a turn, and the machine has gone on by all seedlings of that turn.
+    // One arm plants once per turn, and the machine has gone on by all seedlings of that turn.
     let gone = poses[0] - poses[poses.len() - 3];
     assert!(
         (gone.abs() - TAU * mechanism.advance()).abs() < 1e-3,

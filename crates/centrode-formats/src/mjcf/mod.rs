@@ -208,7 +208,7 @@ fn geoms(xml: &mut String, link: &ModelLink, depth: usize) {
     }
 }
 
-/// Attribute of a turn by roll, pitch and yaw; empty without a turn.
+/// Attribute of a turn by roll, pitch and yaw; empty if all three are zero.
 fn quaternion(turn: [f64; 3]) -> String {
     match turn {
         [0.0, 0.0, 0.0] => String::new(),

@@ -26,7 +26,8 @@ pub struct Limits {
     pub regularity: Extreme,
 }
 
-/// Ratio of each base radius tried to the one before.
+/// Ratio of each base radius tried to the one before. A larger ratio can skip a small radius that works, a smaller one
+/// takes longer.
 const STEP: f64 = 1.02;
 
 impl DiscCam {
@@ -116,6 +117,8 @@ impl DiscCam {
 
     /// Minimum base radius at which `excess` is not above zero.
     fn minimum_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
+        /// Maximum number of base radii that are tried: each is 2 % larger than the one before, so the last is about a
+        /// million times the first.
         const MOST: u32 = 700;
         let of = |radius: f64| match self.with_base_radius(radius) {
             // A radius without a cam is no solution, and infinity cannot be interpolated.

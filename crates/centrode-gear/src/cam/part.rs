@@ -7,7 +7,8 @@ use super::disc::{CamError, DiscCam};
 use super::profile::Profile;
 use crate::design::BodySpec;
 
-/// Maximum distance of the contour from the exact envelope, as a share of the base radius.
+/// Maximum distance of the contour from the exact envelope, as a share of the base radius. A coarser one makes the
+/// figures of the cam less exact, a finer one gives more segments.
 const ACCURACY: f64 = 1e-11;
 
 /// Finished disc cam: the part that is cut and drawn.

@@ -200,7 +200,7 @@ fn normals_curvature_and_pressure_angle_match_differences() {
             let input = TAU * (f64::from(i) + 0.37) / 40.0;
             let [before, at, after] = [-h, 0.0, h].map(|d| cam.contact(input + d));
             let step = after.point - before.point;
-            // The normal is square to the profile, which it turns along as the curvature says.
+            // The normal is perpendicular to the profile, and turns along it at the rate given by the curvature.
             assert!(
                 step.dot(&at.normal).abs() < 1e-9,
                 "{:?} {input}",
@@ -457,7 +457,7 @@ fn the_least_base_circle_is_where_the_limit_is_met() {
 
 #[test]
 fn a_motion_too_fast_for_a_contour_is_refused() {
-    // 20,000 swings a turn: each takes segments of its own.
+    // 20,000 oscillations per turn: each takes segments of its own.
     let swings = 2e4;
     let motion = FromFn::new(TAU, 0.0, vec![], move |input: f64| {
         let (sin, cos) = (swings * input).sin_cos();

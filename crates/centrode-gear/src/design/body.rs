@@ -35,10 +35,10 @@ pub struct BodySpec {
     pub shaft_fit: String,
     /// Tolerance class of the keyway's width, ISO 286, for the drawing.
     pub keyway_fit: String,
-    /// Heat treatment, for the drawing; left empty, none.
+    /// Heat treatment, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
-    /// Heat treatment of the shaft in the bore, for the drawing; left empty, none.
+    /// Heat treatment of the shaft in the bore, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub shaft_heat_treatment: String,
     /// Accuracy class of the teeth, for the drawing: a flank tolerance class of ISO 1328-1, or one of another system in words;

@@ -30,7 +30,8 @@ pub struct Cam {
     pub pin_radius: f64,
 }
 
-/// Number of corners of the polygon around a pin.
+/// Number of corners of the polygon around a pin. Fewer cut the cam deeper than necessary, because the polygon is
+/// circumscribed; more take longer.
 const PIN_CORNERS: u32 = 96;
 
 impl IntermittentPair {

@@ -11,9 +11,11 @@ use crate::pitch::PitchSpec;
 use crate::{GearPair, Member};
 use centrode_kinematics::transmission::Transmission;
 
-/// Number of steps per driver turn while the driven gear passes through the driver's blank: a twentieth of a degree each.
+/// Number of steps per driver turn while the driven gear passes through the driver's blank: a twentieth of a degree
+/// each. Fewer leave ridges between the steps, more take longer.
 const STEPS: u32 = 7200;
-/// Maximum distance of a written contour from the computed one, in modules.
+/// Maximum distance of a written contour from the computed one, in modules. A coarser one uses up backlash, a finer one
+/// writes more corners.
 const ACCURACY: f64 = 1e-4;
 /// Minimum height of a tooth above the locking arc, in modules, for it to count.
 const TOOTH: f64 = 0.2;
@@ -296,7 +298,7 @@ impl IntermittentPair {
         TAU - self.law.motion_angle()
     }
 
-    /// Jump of the driven gear's speed as it starts, per driver speed; none with an entry cam.
+    /// Jump of the driven gear's speed as it starts, per driver speed; zero with an entry angle.
     #[must_use]
     pub fn shock(&self) -> f64 {
         if self.law.entry > 0.0 {

@@ -7,7 +7,8 @@ use nalgebra::Isometry2;
 /// Difference of the distances of two points from a chord, as a share of the tolerance, below which they count as equal:
 /// rounding.
 const ALIKE: f64 = 1e-6;
-/// Number of directions in which a contour's radius is stored.
+/// Number of directions in which a contour's radius is stored. Fewer make the contour coarser, more take memory and
+/// time.
 const DIRECTIONS: usize = 32_768;
 
 /// Unit vectors of the directions.
@@ -53,7 +54,7 @@ impl Corner {
     }
 }
 
-/// Number of corners per chain of a polygon.
+/// Number of corners per chain of a polygon: a chain that is far away is skipped as a whole. It only affects the time.
 const CHAIN: usize = 32;
 
 /// Part of a closed polygon: corners one after the other, with the one before them and the one after them.

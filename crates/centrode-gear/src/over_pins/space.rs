@@ -72,7 +72,8 @@ pub(super) struct Walls<'a> {
     up: Vec<&'a Segment>,
 }
 
-/// Number of samples per segment at which signs are compared.
+/// Number of samples per segment at which signs are compared. Fewer can miss two changes of sign within a step, more
+/// take longer.
 const SAMPLES: u32 = 12;
 
 impl Walls<'_> {

@@ -7,10 +7,11 @@ use crate::Rolling;
 /// so that the work is proportional to this product.
 pub(super) const MAX_WORK: usize = 25_000;
 
-/// Minimum radius of curvature, modules, of pitch curves with as many waves as the work allows.
+/// Minimum radius of curvature, modules, of pitch curves with as many waves as the work allows. Curves with a smaller
+/// radius are limited by [`MAX_SWINGS`].
 const MIN_ARC: f64 = 0.5;
 
-/// Maximum number of waves per tooth of pitch curves with a smaller radius.
+/// Maximum number of waves per tooth of pitch curves with a smaller radius. Curves with more waves are refused.
 pub(super) const MAX_SWINGS: usize = 4;
 
 /// Checks that teeth can follow the pitch curves: these may have many waves or small arcs, but not both.
@@ -72,8 +73,8 @@ mod tests {
             panic!("{error}");
         };
         assert_eq!((swings, teeth), (503, 40));
-        // Next to the waves the circle counts for nothing: their curvature is about e n^2/r, and that of the mate the same with the other
-        // sign. Their slope makes the pitch curve longer by a sixteenth.
+        // Compared with the waves, the curvature of the circle is negligible: their curvature is about e n^2/r, and
+        // that of the mate the same with the other sign. Their slope makes the pitch curve longer by a sixteenth.
         let r = 40.0 * module / (2.0 * 1.06);
         let expected = r / (1.0 + 0.001 * 503.0 * 503.0);
         assert!(

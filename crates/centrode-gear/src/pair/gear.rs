@@ -151,7 +151,8 @@ impl Gear {
     }
 }
 
-/// Number of steps of a segment between which extremes of its distance from the axis are searched.
+/// Number of steps of a segment between which extremes of its distance from the axis are searched. Fewer can miss an
+/// extreme, more take longer.
 const STEPS: usize = 8;
 
 /// Minimum and maximum distance of an outline from the axis, mm.

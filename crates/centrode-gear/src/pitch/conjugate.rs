@@ -7,7 +7,7 @@ use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, PitchSpec};
 use crate::{ConjugateCurve, Rolling};
 
-/// Maximum depth of conjugates of conjugates.
+/// Maximum depth of conjugates of conjugates: limits the time of an evaluation.
 const DEEPEST: usize = 4;
 
 /// Curve that rolls on another: the driven curve of one pair as the driver of the next.

@@ -233,7 +233,7 @@ impl Spline {
 
     fn uneven(angle: &[f64], samples: &[f64]) -> Self {
         let n = samples.len();
-        // The list starts anywhere in the turn; the knots start at the first angle past zero.
+        // The list can start at any angle; the knots start at the first angle above zero.
         let mut nodes: Vec<(f64, f64)> = angle
             .iter()
             .map(|a| a.rem_euclid(TAU))

@@ -5,7 +5,7 @@ use super::PitchError;
 use super::error::{finite, positive};
 use super::piecewise::Coordinates;
 
-/// Maximum number of points of one curve.
+/// Maximum number of points of one curve: limits time and memory of a design.
 pub(crate) const MAX_POINTS: usize = 10_000;
 
 /// The plane control points are drawn in.

@@ -7,10 +7,13 @@ use centrode_geometry::{Curve, Jet, bracketed_minimum};
 use super::PitchError;
 use super::plane::ScalableCurve;
 
-/// Minimum number of samples of a whole curve and of one analytic piece of it.
+/// Minimum number of samples of a whole curve and of one analytic piece of it. Fewer can miss a narrow dip of the
+/// radius, more take longer.
 const SAMPLES: (usize, usize) = (384, 8);
-/// Maximum number of halvings of one sample interval, and of all intervals together, where the curve is not yet resolved.
+/// Maximum number of halvings of one sample interval if the curve is not yet resolved. Fewer miss narrow features, more
+/// take longer.
 const DEEPEST: u32 = 12;
+/// Maximum number of halvings of all intervals together; above it the curve is refused as too rough.
 const MAX_HALVINGS: u32 = 50_000;
 
 /// Radius and speed of the polar angle at a parameter, each with its slope.

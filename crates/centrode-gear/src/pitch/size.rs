@@ -17,7 +17,7 @@ pub(crate) struct Size {
 /// Size of a shape as written, before module and tooth count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum OwnSize {
-    /// The shape has none; the key is the one that could set it.
+    /// The shape has no size; the key is the one that could set it.
     Missing(&'static str),
     /// The key fixes it: a module next to it would contradict.
     Fixed(&'static str),

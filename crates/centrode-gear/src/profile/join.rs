@@ -97,6 +97,7 @@ impl Cutter<'_> {
 
 /// Minimum radius of curvature of a segment, mm.
 fn minimum_radius(poly: &PolySegment) -> f64 {
+    /// Number of steps of the parameter. Fewer can miss a minimum between two samples, more take longer.
     const STEPS: usize = 4;
     let radius = |u: f64| {
         let jet = poly.at(u);

@@ -46,11 +46,11 @@ struct ToothCurve {
     image: Option<Image>,
 }
 
-/// Share of a straight rack's flank speed at which a flank too short for its height ends: beyond it the
-/// flank curls up on itself.
-const BLUNT: f64 = 0.02;
+/// Minimum generation speed, relative to a straight rack, of a flank that cannot reach the required height: the flank ends where
+/// its speed falls below this. Nearer to the singular point the flank turns back on itself. A larger value gives shorter teeth.
+const MIN_TIP_SPEED: f64 = 0.02;
 
-/// Relative difference below which two parameters are equal.
+/// Relative difference below which two parameters are equal: rounding. Pieces of this length are omitted.
 const CRUMB: f64 = 1e-14;
 
 /// Tip and ends of one flank, as computed.
@@ -194,7 +194,9 @@ impl Cutter<'_> {
         } else {
             farthest
         };
-        let tip = flank.slower(BLUNT, start, farthest).unwrap_or(farthest);
+        let tip = flank
+            .slower(MIN_TIP_SPEED, start, farthest)
+            .unwrap_or(farthest);
         let (mut foot, mut height) = flank.foot(tip);
         if height > required {
             (foot, height) = flank.nearest_foot(tip).unwrap_or((foot, height));

@@ -23,7 +23,10 @@ pub enum RollingError {
         most: usize,
     },
     /// The mean ratio has no closed driven curve.
-    #[error("mean ratio {}:{} needs a driver that repeats {} times per turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
+    #[error(
+        "mean ratio {}:{} needs a driver curve that repeats {} times per turn, but its radius differs by {difference:.3e} mm \
+        between repeats: try kind = \"lobed-ellipse\", lobes = {}", ratio.0, ratio.1, ratio.1, ratio.1
+    )]
     NotPeriodic {
         /// Turns of driver : turns of driven.
         ratio: (u32, u32),

@@ -6,7 +6,7 @@ use centrode_geometry::{bracketed_newton, checkpoint, piece_ends};
 
 use super::Rolling;
 
-/// Number of knots per turn, in addition to the breaks.
+/// Number of knots per turn, in addition to the breaks. Fewer make the search for a parameter slower, more take memory.
 const KNOTS: u32 = 96;
 
 impl Rolling {

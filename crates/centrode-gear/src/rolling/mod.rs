@@ -14,7 +14,8 @@ pub use pitch_contact::{CurvatureRange, PitchContact};
 
 use super::pitch::{SampledCorner, Symmetry};
 
-/// Number of equal parts of a turn in each of which a pitch curve has few extremes.
+/// Number of equal parts of a turn in each of which a pitch curve has few extremes. Fewer can miss extremes, more take
+/// longer.
 const PIECES: u32 = 8;
 
 /// Gear of a pair.

@@ -6,7 +6,8 @@ use centrode_geometry::{COMPUTED, Extreme, Point, bracketed_minimum, checkpoint}
 
 use super::Rolling;
 
-/// Number of positions per driver turn among which an overlap is searched.
+/// Number of positions per driver turn among which an overlap is searched. Fewer can miss a short overlap, more take
+/// longer.
 const PLACES: usize = 360;
 
 /// One position of the pitch point: driver angle, radius of the driver's curve, and driven angle.

@@ -28,7 +28,8 @@ pub struct PitchContact {
     pub direction: Vector,
     /// Radius of the driver's pitch curve and of the driven gear's, mm.
     pub radii: [f64; 2],
-    /// Cosine and sine of the inclination mu of the common tangent to the driver's circle, tan mu = r'/r.
+    /// Cosine and sine of the angle mu from the circle about the driver's axis to the common tangent of the pitch curves:
+    /// tan mu = r'/r.
     pub inclination: (f64, f64),
 }
 

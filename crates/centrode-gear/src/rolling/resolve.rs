@@ -6,10 +6,12 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
 use super::{Extreme, Rolling, RollingError, SAME};
 use crate::pitch::{Symmetry, gcd};
 
-/// Maximum number of pieces on which a pitch curve may not be smooth, as next to a kink.
+/// Maximum number of pieces on which a pitch curve may not be smooth, for example next to a kink. A larger number
+/// accepts curves whose length is not exact.
 const MAX_UNSETTLED: usize = 64;
 
-/// Minimum change of the radius's slope that counts as a wave, as a share of the maximum radius per radian.
+/// Minimum change of the radius's slope that counts as a wave, as a share of the maximum radius per radian. A smaller
+/// one counts rounding as waves, a larger one misses shallow waves.
 const SWINGS: f64 = 1e-7;
 
 impl Rolling {
@@ -144,6 +146,8 @@ fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
 
 /// Parameters at polar angle 0 and pi.
 fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
+    /// Number of points of the curve between which crossings of the axis are searched. Fewer can miss two crossings,
+    /// more take longer.
     const SAMPLES: usize = 128;
     let t = |i: usize| period * i as f64 / SAMPLES as f64;
     let mut points: Vec<Point> = (0..SAMPLES).map(|i| curve.at(t(i)).point).collect();

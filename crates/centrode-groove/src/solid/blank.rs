@@ -33,7 +33,7 @@ pub struct ShaftBody {
     pub density: f64,
     /// Material, for the drawing.
     pub material: String,
-    /// Heat treatment, for the drawing; left empty, none.
+    /// Heat treatment, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
 }

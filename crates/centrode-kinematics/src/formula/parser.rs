@@ -130,7 +130,7 @@ impl Parser<'_> {
     fn signed(&mut self) -> Result<(), FormulaError> {
         self.nesting += 1;
         if self.nesting > DEEPEST_NESTING {
-            return self.fail(format!("nesting deeper than {DEEPEST_NESTING}"));
+            return self.fail(format!("nested more than {DEEPEST_NESTING} levels deep"));
         }
         if self.take('-') {
             self.signed()?;
@@ -280,7 +280,9 @@ impl Parser<'_> {
                 _ => depth -= 1,
             }
             if depth > DEEPEST {
-                let reason = format!("nesting deeper than {DEEPEST} values");
+                let reason = format!(
+                    "use fewer nested parentheses: more than {DEEPEST} intermediate values at once in the formula that begins"
+                );
                 return Err(FormulaError { reason, column: 1 });
             }
         }

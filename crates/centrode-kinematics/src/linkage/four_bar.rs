@@ -69,6 +69,16 @@ pub enum FourBarError {
         /// The limit of the crank, from 0 to pi either side of the frame line, rad.
         limit: f64,
     },
+    /// The rod of a slider-crank does not reach the slider's line.
+    #[error(
+        "the rod does not reach the slider's line at the crank angle {input} rad; the crank stops at {limit} rad"
+    )]
+    RodTooShort {
+        /// Crank angle, rad.
+        input: f64,
+        /// Crank angle at which the rod is perpendicular to the slider's line, rad; NaN if the rod reaches it at no angle.
+        limit: f64,
+    },
     /// Coupler and rocker lie in one line, but the crank can go on.
     #[error(
         "coupler and rocker lie in one line at the crank angle {input} rad, a change point: both branches meet there"

@@ -44,7 +44,7 @@ impl SliderCrank {
     /// Position of the slider along its line, mm, with derivatives per radian of crank angle.
     ///
     /// # Errors
-    /// [`FourBarError::DoesNotClose`] with the crank angle at which the rod is square to the line.
+    /// [`FourBarError::RodTooShort`] with the crank angle at which the rod is perpendicular to the line.
     pub fn slider(&self, input: f64) -> Result<MotionJet, FourBarError> {
         let b = PointSeries::<4>::turning(input).times(self.crank);
         let line = PointSeries::fixed(Point::new(0.0, self.offset));
@@ -56,7 +56,7 @@ impl SliderCrank {
         let side = (self.crank * input.sin() - self.offset).signum();
         let limit = ((self.offset + side * self.rod) / self.crank).asin();
         let limit = if input.cos() < 0.0 { PI - limit } else { limit };
-        Err(FourBarError::DoesNotClose { input, limit })
+        Err(FourBarError::RodTooShort { input, limit })
     }
 
     /// Stroke of the slider, mm: sqrt((b + a)² - e²) - sqrt((b - a)² - e²); `None` if the crank cannot turn.

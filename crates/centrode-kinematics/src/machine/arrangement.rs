@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::LinkedMachine;
 use centrode_spec::DrawingSpec;
 
-/// Contents of the general arrangement that links, joints and figures do not tell.
+/// Contents of the general arrangement that are not in links, joints and figures.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Arrangement {
@@ -15,11 +15,11 @@ pub struct Arrangement {
     pub drawing: DrawingSpec,
     /// Input at which the machine is drawn, rad.
     pub input: f64,
-    /// Dimensions next to those of shafts and travel.
+    /// Dimensions in addition to those of shafts and travel.
     pub dimensions: Vec<Dimension>,
-    /// Words with a leader to their place.
+    /// Texts with a leader to a point.
     pub callouts: Vec<Callout>,
-    /// Data of the machine, in the order told.
+    /// Data of the machine, in the order of the list.
     pub data: Vec<Datum>,
     /// Lines of notes.
     pub notes: Vec<String>,

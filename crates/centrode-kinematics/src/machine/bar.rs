@@ -10,7 +10,7 @@ use crate::machine::Keyway;
 const CHAMFER: f64 = 1.0 / 16.0;
 /// Length at or below which a step is omitted as rounding, mm.
 const ROUNDING: f64 = 1e-9;
-/// Minimum axial play of the parts between two rings, mm.
+/// Minimum axial clearance of the parts between two rings, mm.
 const CLEARANCE: f64 = 0.05;
 /// Rounding step of the deviations of a length between grooves, and the width of its tolerance, mm.
 const DEVIATION: [f64; 2] = [0.05, 0.1];
@@ -78,7 +78,7 @@ impl Bar {
         self
     }
 
-    /// The bar through these parts, given by their lower and upper faces, mm: rings leave them axial play.
+    /// The bar through these parts, given by their lower and upper faces, mm: rings leave them axial clearance.
     pub fn through(mut self, parts: &[[f64; 2]]) -> Self {
         self.parts.extend_from_slice(parts);
         self
@@ -184,7 +184,7 @@ impl Bar {
         self.keyed.last().copied()
     }
 
-    /// Length by which the part is longer than the bar, mm: play between its rings.
+    /// Length by which the part is longer than the bar, mm: clearance between its rings.
     pub fn growth(&self, general: &str) -> f64 {
         match &self.held_lengths(general)[..] {
             [held] => held.middle(),
@@ -192,7 +192,7 @@ impl Bar {
         }
     }
 
-    /// The bar without the ring at its upper end, if that ring, moved by the play, does not fit into the room, mm.
+    /// The bar without the ring at its upper end, if that ring, moved by the clearance, does not fit into the room, mm.
     pub fn within(mut self, room: f64, general: &str) -> Self {
         let needed = Circlip::of_shaft(self.fit.size).map_or(0.0, Circlip::room);
         if needed + self.growth(general) <= room + ROUNDING {
@@ -223,11 +223,12 @@ impl Bar {
         walls
     }
 
-    /// Lengths between grooves at which general tolerances leave the held parts no play, with deviations that do leave it.
+    /// Lengths between ring grooves with deviations of their own, because general tolerances could leave the parts between the
+    /// rings less than [`CLEARANCE`].
     ///
-    /// A ring can move to the far wall of its groove. The play is smallest where the length and the grooves are shortest and the
-    /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, minus the thicknesses, each with
-    /// its deviation.
+    /// A ring can move to the far wall of its groove. The clearance is smallest where the length and the grooves are shortest and
+    /// the parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, minus the thicknesses, each
+    /// with its deviation.
     fn held_lengths(&self, general: &str) -> Vec<HeldLength> {
         let slack =
             Circlip::of_shaft(self.fit.size).map_or(0.0, |ring| ring.width - ring.thickness);
@@ -244,13 +245,13 @@ impl Bar {
             let thickest = parts.iter().map(|t| t + general_deviation(general, *t));
             let slacks = f64::from(!lower_holds_below) + f64::from(upper_holds_below);
             let length = high - low;
-            let play = length + slack * slacks - thickest.sum::<f64>();
-            if parts.is_empty() || play - general_deviation(general, length) >= CLEARANCE {
+            let clearance = length + slack * slacks - thickest.sum::<f64>();
+            if parts.is_empty() || clearance - general_deviation(general, length) >= CLEARANCE {
                 return None;
             }
             let [step, width] = DEVIATION;
             // Rounded up to whole steps; the margin is for rounding.
-            let minimum = ((CLEARANCE - play) / step - 1e-6).ceil() * step;
+            let minimum = ((CLEARANCE - clearance) / step - 1e-6).ceil() * step;
             let deviations = [minimum, minimum + width].map(|mm| (mm * 1e3).round() / 1e3);
             let span = [low, high].map(|z| z - self.span[0]);
             Some(HeldLength { span, deviations })

@@ -30,12 +30,14 @@ pub struct GearMesh {
     pub joint: usize,
     /// Number of the copy of a chain it belongs to.
     pub copy: usize,
-    /// Angle of a flank's normal through the pitch point against the pitch curves, rad; none where flanks have no common one.
+    /// Angle of a flank's normal through the pitch point against the pitch curves, rad; `None` if the flanks have no
+    /// common one.
     pub pressure_angle: Option<f64>,
-    /// Places of the axes of the two gears in the frames of their links, mm; left out, the axes stand on the frames' origins.
+    /// Places of the axes of the two gears in the frames of their links, mm. Default: the origins of the frames.
     #[serde(default, skip_serializing_if = "at_origins")]
     pub axes: [[f64; 3]; 2],
-    /// The pitch curves; left out, they are found from how the gears turn on each other, which they must then do.
+    /// The pitch curves. Default: they are computed from the relative motion of the gears, which must not be at rest
+    /// then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch: Option<PitchCurves>,
 }
@@ -98,8 +100,8 @@ pub struct Contact {
     pub joint: usize,
     /// Axis of the roller in the frame of the second link, mm.
     pub at: [f64; 3],
-    /// Direction of the force in the frame of the first link, for a straight slot; none for a curve: square to the way of
-    /// the roller along it.
+    /// Direction of the force in the frame of the first link, for a straight slot. `None` for a curved one: there the
+    /// force is perpendicular to the path of the roller along it.
     pub normal: Option<[f64; 3]>,
     /// The line along which the force acts, where it is known whether the links move or rest: of a cam and its follower.
     #[serde(default, skip_serializing_if = "Option::is_none")]

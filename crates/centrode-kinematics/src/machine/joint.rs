@@ -29,9 +29,9 @@ pub struct Joint {
     #[serde(with = "plain::laws")]
     #[schemars(with = "plain::laws::File")]
     pub law: Arc<dyn Transmission>,
-    /// Index of the joint whose position settles this one's, through a cam or a groove; none where the input does.
+    /// Index of the joint whose position determines the position of this one through a cam or groove; `None` if the input does.
     pub leader: Option<usize>,
-    /// Column that holds the torque (N mm) against the joint.
+    /// Column of the torque that resists this joint, N mm.
     pub load: Option<usize>,
 }
 

@@ -50,7 +50,7 @@ const NOISE: f64 = 1e-9;
 /// Shortest piece, as a share of the period: a shorter one would contain a jump.
 const SHORTEST: f64 = 1e-9;
 
-/// A transmission as a straight line and Chebyshev pieces of what is left of it, within rounding of what it stands for.
+/// A transmission as a straight line plus Chebyshev pieces of the rest, equal to the original within rounding.
 ///
 /// Source: Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 4.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

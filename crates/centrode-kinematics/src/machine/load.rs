@@ -53,7 +53,7 @@ pub enum Load {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axes {
-    /// Those of the first link's frame, which stands still.
+    /// Those of the first link's frame, which is fixed.
     #[default]
     World,
     /// Those of the loaded link's own frame.

@@ -71,21 +71,21 @@ pub struct LinkedMachine {
     pub title: String,
     /// The turning shaft that drives it.
     pub input: Input,
-    /// The links; the first stands still.
+    /// The links; the first is fixed.
     pub links: Vec<Link>,
     /// The joints: each link but the first is carried by one.
     pub joints: Vec<Joint>,
-    /// Where loops close that the tree leaves open.
+    /// Connections that close the loops that the tree of joints leaves open.
     pub closures: Vec<Closure>,
     /// Links that touch by their teeth.
     pub meshes: Vec<GearMesh>,
-    /// Links of which one runs along a curve of the other.
+    /// Pairs of links: one runs along a curve of the other.
     pub contacts: Vec<Contact>,
     /// Grooves that lead joints.
     pub guides: Vec<Guide>,
     /// Acceleration of free fall in the frame of the first link, mm/s².
     pub gravity: [f64; 3],
-    /// Loads next to weight and inertia.
+    /// Loads in addition to weight and inertia.
     pub loads: Vec<Load>,
     /// Points worth following.
     pub points: Vec<LinkPoint>,
@@ -101,9 +101,9 @@ pub struct LinkedMachine {
     pub figures: Vec<Figure>,
     /// Places of the picture worth a name.
     pub marks: Vec<Mark>,
-    /// Parts that a shop makes or buys, in the order of the parts list.
+    /// Parts that a workshop makes or buys, in the order of the parts list.
     pub parts: Vec<Part>,
-    /// Fits of holes and of what runs or sits in them, alike ones once.
+    /// Fits of holes and of the parts that run or sit in them, equal ones once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fits: Vec<Fit>,
     /// The general arrangement.
@@ -120,7 +120,7 @@ pub struct Input {
     pub name: String,
     /// Angle after which every joint repeats, up to its advance, rad.
     pub period: f64,
-    /// Speed at which the design runs it, rad/s; 1 where it says nothing.
+    /// Speed of the design, rad/s; 1 if the design gives none.
     pub speed: f64,
 }
 
@@ -130,7 +130,7 @@ pub struct Input {
 pub struct Link {
     /// Name.
     pub name: String,
-    /// Mass and inertia in the link's frame; none for a link without a body.
+    /// Mass and inertia in the link's frame; `None` for a link without a body.
     #[serde(with = "plain::masses")]
     #[schemars(with = "plain::masses::File")]
     pub mass: Option<MassProperties>,
@@ -288,7 +288,7 @@ impl Quantity {
 pub struct Shape {
     /// Name of its file.
     pub name: String,
-    /// Name of the file of its own part, the same body at whatever tolerance is asked for; empty where no part is it.
+    /// Name of the file of the part that is identical to this body at any tolerance; empty if there is no such part.
     pub part: String,
     /// The body.
     #[schemars(with = "plain::FormFile")]
@@ -334,9 +334,10 @@ pub struct Surface {
     pub outline: Outline,
     /// Lower and upper end along z, mm.
     pub span: [f64; 2],
-    /// For a gear the tooth each segment of the contour belongs to, none for one that does not touch; empty for a plate.
+    /// For a gear: the tooth of each segment of the contour, `None` for a segment that does not touch. Empty for a
+    /// plate.
     pub teeth: Vec<Option<u32>>,
-    /// How many times the tolerance its bodies may stand off the contour.
+    /// Maximum distance of its bodies from the contour, as a multiple of the tolerance.
     pub coarseness: f64,
 }
 

@@ -10,23 +10,23 @@ use super::{Blank, LinkedMachine, Place};
 pub struct Part {
     /// Name.
     pub name: String,
-    /// Indices of the links that the pieces belong to: one for each piece, so as many as a machine has.
+    /// Indices of the links that the pieces belong to: one per piece in the machine.
     pub links: Vec<usize>,
-    /// Material; empty where the design says nothing of it.
+    /// Material; empty if the design gives none.
     pub material: String,
-    /// Stock that a piece is made from; none where it is bought, or not known.
+    /// Stock that a piece is made from; `None` if it is bought, or not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub blank: Option<Blank>,
-    /// Mass of one piece, kg; none where it is not known.
+    /// Mass of one piece, kg; `None` if it is not known.
     pub mass: Option<f64>,
     /// Where it comes from.
     #[serde(default, skip_serializing_if = "Supply::is_made")]
     pub supply: Supply,
-    /// Name that its drawings, sheets and solids begin with; empty for a part without files.
+    /// First part of the names of its drawings, sheets and solids; empty for a part without files.
     pub file: String,
     /// Remark.
     pub remark: String,
-    /// Place on a piece to which its number points in the general arrangement; none where it is not seen.
+    /// Point of a piece to which its number points in the general arrangement; `None` if it is not visible.
     pub place: Option<Place>,
 }
 
@@ -39,7 +39,7 @@ pub enum Supply {
     Made,
     /// Bought by its name.
     Bought,
-    /// Part of the machine around: the design says what touches it, and no more.
+    /// Part of the surrounding machine: the design defines only its interface.
     Given,
 }
 
@@ -67,7 +67,7 @@ impl Part {
         }
     }
 
-    /// A part that is the customer's, with its pieces: the remark says what it must fit.
+    /// A part that comes from the customer, with its pieces. The remark states what it must fit.
     #[must_use]
     pub fn given(name: &str, links: Vec<usize>, remark: String) -> Self {
         Self {

@@ -18,7 +18,8 @@ pub struct TurnedPart {
     /// Keyway of the steps that have one, along x.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
-    /// Lengths between grooves whose deviations leave what the rings hold some play.
+    /// Lengths between ring grooves with deviations of their own, because general tolerances could leave the parts between the
+    /// rings less than 0.05 mm of axial clearance.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub held: Vec<HeldLength>,
     /// Chamfer of 45° at both ends, mm; 0 for none.
@@ -27,7 +28,7 @@ pub struct TurnedPart {
     pub material: String,
     /// Density, kg/m^3.
     pub density: f64,
-    /// Heat treatment; left empty, none.
+    /// Heat treatment; empty if there is none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
     /// Further notes of its sheet.
@@ -190,7 +191,7 @@ impl TurnedPart {
         })
     }
 
-    /// Distance of the keyway's floor from the axis, mm; zero without one.
+    /// Distance of the keyway's floor from the axis, mm; zero if it has none.
     pub(super) fn key_foot(&self) -> f64 {
         self.slot().map_or(0.0, |slot| slot.floor)
     }
@@ -321,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn a_length_between_rings_has_deviations_where_general_tolerances_leave_no_play() {
+    fn a_length_between_rings_has_deviations_where_general_tolerances_leave_no_clearance() {
         let held = |parts: &[[f64; 2]], general: &str| {
             let bar = Bar::new(Fit::new("", 16.0, ["", "h6"]), [0.0, 60.0]).ring(0.0, false, 9.0);
             let bar = bar.ring(15.0, true, 2.0).through(parts);
@@ -341,7 +342,7 @@ mod tests {
         assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-mK"), [(15.1, even)]);
         // +- 0.1 of class f: 0.05 are left of 14.95 + 0.2 - 15.1.
         assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-fH"), [(15.0, even)]);
-        // 14.5 in 15 have play whatever the length is, and what is elsewhere is not held.
+        // Parts of 14 mm in 15 mm always have clearance; parts outside the rings are not held.
         assert_eq!(held(&[[0.5, 14.5]], "ISO 2768-mK"), []);
         assert_eq!(held(&[[20.0, 35.0]], "ISO 2768-mK"), []);
     }

@@ -44,7 +44,7 @@ pub struct HousingSpec {
     /// Nominal diameter of the screws of the covers, ISO 4762, mm: 3 for M3, 0 for none; default: the largest no thicker than a
     /// cover that finds room.
     pub screw: Option<f64>,
-    /// Heat treatment of housing and covers, for the drawing; left empty, none.
+    /// Heat treatment of housing and covers, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
 }
@@ -77,7 +77,7 @@ pub struct ClampSpec {
     pub thickness: f64,
     /// Distance between the flakes when open, mm.
     pub opening: f64,
-    /// Heat treatment of the flakes, for the drawing; left empty, none.
+    /// Heat treatment of the flakes, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
 }
@@ -106,7 +106,7 @@ pub struct PushRodSpec {
     pub pusher_height: f64,
     /// Length of the pusher along the rod, mm.
     pub pusher_length: f64,
-    /// Heat treatment of the rod, for the drawing; left empty, none.
+    /// Heat treatment of the rod, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
 }

@@ -95,7 +95,7 @@ pub struct FeederGoals {
     #[serde(rename = "swing_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing: f64,
-    /// Maximum deviation of the swing from the wanted one, rad (degrees in the file).
+    /// Maximum deviation of the swing from the required one, rad (degrees in the file).
     #[serde(rename = "swing_tolerance_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing_tolerance: f64,
@@ -105,7 +105,7 @@ pub struct FeederGoals {
     pub transmission_angle: f64,
     /// Minimum quick return: time of the feed stroke over that of the return.
     pub quick_return: f64,
-    /// Cuttings a minute.
+    /// Cuttings per minute.
     pub feed_rate: f64,
     /// Time for which the effector must rest while it is filled, s.
     pub pushing_time: f64,
@@ -115,7 +115,7 @@ pub struct FeederGoals {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DriveSpec {
-    /// Speed of the motor, turns a minute.
+    /// Speed of the motor, turns per minute.
     pub motor_rpm: f64,
     /// Turns of the motor for one of the intermittent gear.
     pub chain_ratio: f64,

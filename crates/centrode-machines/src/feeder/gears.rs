@@ -34,14 +34,15 @@ pub struct GearsSpec {
     pub backlash: f64,
     /// Clearance between locking arc and notch, mm.
     pub lock_clearance: f64,
-    /// Radius of the locking arc, mm; left out, the driver's pitch radius.
+    /// Radius of the locking arc, mm. Default: the driver's pitch radius.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lock_radius: Option<f64>,
-    /// Diameter of the pins that run on the cams, mm; left out, the preferred size (ISO 497, R''20) nearest to two and a half
-    /// modules.
+    /// Diameter of the pins that run on the cams, mm. Default: the preferred size (ISO 497, R''20) nearest to two and a
+    /// half modules.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
-    /// Diameter of the circle through the pins' centres, mm; left out, three quarters of the driven pitch circle's.
+    /// Diameter of the circle through the pins' centres, mm. Default: three quarters of that of the driven pitch
+    /// circle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_circle: Option<f64>,
     /// Angle of each pin from the line of centres at rest, rad (degrees in the file).
@@ -53,15 +54,15 @@ pub struct GearsSpec {
     /// Diameter of the bores, and of the shafts in them, mm.
     #[schemars(extend("x-detail" = true))]
     pub bore: f64,
-    /// Keyway in the bores, along the x axis of each gear and cam; left out, that of DIN 6885-1 for the bore.
+    /// Keyway in the bores, along the x axis of each gear and cam. Default: that of DIN 6885-1 for the bore.
     #[schemars(extend("x-detail" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
-    /// Heat treatment of gears and cams, for the drawing; left empty, none.
+    /// Heat treatment of gears and cams, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     #[schemars(extend("x-detail" = true))]
     pub heat_treatment: String,
-    /// Heat treatment of their shafts and of the cams' pins, for the drawing; left empty, none.
+    /// Heat treatment of their shafts and of the cams' pins, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     #[schemars(extend("x-detail" = true))]
     pub shaft_heat_treatment: String,

@@ -24,8 +24,8 @@ pub struct PlatesSpec {
     pub slider_length: f64,
     /// Clearance of the slider at the ends of the slot, mm.
     pub slot_clearance: f64,
-    /// Nominal diameter of the screws of the frame, ISO 4762, mm: 6 for M6, 0 for none; left out, the largest no thicker than a plate
-    /// that finds room.
+    /// Nominal diameter of the screws of the frame, ISO 4762, mm: 6 for M6, 0 for none. Default: the largest no thicker
+    /// than a plate that finds room.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
     /// Tolerance class of the holes for the pins, ISO 286, for the drawing.
@@ -40,10 +40,10 @@ pub struct PlatesSpec {
     pub slider_fit: String,
     /// Material, for the drawing.
     pub material: String,
-    /// Heat treatment of the plates, for the drawing; left empty, none.
+    /// Heat treatment of the plates, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
-    /// Heat treatment of the pins, for the drawing; left empty, none.
+    /// Heat treatment of the pins, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub pin_heat_treatment: String,
     /// Density, kg/m^3.

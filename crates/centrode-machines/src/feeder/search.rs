@@ -12,7 +12,7 @@ pub struct DimensionSearchSpec {
     /// Dimensions that stay as they are; the other lengths move within `bounds`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hold: Vec<Dimension>,
-    /// Whether the pivot is a variable too. Any lengths reach the wanted swing for some pivot, so its displacement
+    /// Whether the pivot is a variable too. Any lengths reach the required swing for some pivot, so its displacement
     /// must be penalised.
     pub free_pivot: bool,
     /// Deviation of the swing that a millimetre of the pivot's displacement counts as, rad (degrees in the file).

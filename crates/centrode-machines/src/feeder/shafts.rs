@@ -21,7 +21,8 @@ impl Feeder {
         all
     }
 
-    /// Pins of the cams: half of them reach from the driven gear to the entry cam, half to the exit cam; `None` without cams.
+    /// Pins of the cams: half of them reach from the driven gear to the entry cam, half to the exit cam; `None` if
+    /// there are no cams.
     fn cam_pins(&self) -> Option<TurnedPieces> {
         let (spec, body) = (&self.design().gears, self.design().gears.body());
         let stops = spec.drive().ok()?.stops();

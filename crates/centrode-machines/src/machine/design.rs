@@ -91,7 +91,7 @@ pub struct MachineDesign {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MachineInputSpec {
-    /// Speed, turns a minute.
+    /// Speed, turns per minute.
     pub speed_rpm: f64,
     /// Turns after which the whole machine repeats.
     pub turns: u32,
@@ -175,7 +175,7 @@ impl MachineDesign {
             if name == FRAME {
                 return broken(
                     &key,
-                    Rule::Excludes("the frame, which has a table of its own"),
+                    Rule::Unused("as a body: write its keys in the table [frame]"),
                 );
             }
             body.validate().map_err(|e| e.inside(&key))?;

@@ -14,7 +14,6 @@ use super::{
 use centrode_kinematics::linkage::{Coordinate, LinkId, Linkage, LinkageError, NotClosing};
 use centrode_kinematics::machine::JointKind;
 use centrode_kinematics::transmission::Remembered;
-use centrode_spec::{Rule, SpecError};
 
 /// Body or dyad to build, in any order that its needs allow.
 #[derive(Clone, Copy)]
@@ -179,8 +178,8 @@ impl<'a> Builder<'a> {
             let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
             if matches!(figure, MachineFigure::Clearance(_)) && goal.over != Some(Over::Minimum) {
                 let key = format!("goals.{name}.over");
-                let rule = Rule::Needed("with the word minimum for a clearance");
-                return Err(SpecError { key, rule }.into());
+                let why = "must be \"minimum\" for the figure clearance";
+                return Err(MachineError::refused(key, why));
             }
             Ok(figure)
         });

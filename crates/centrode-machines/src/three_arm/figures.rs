@@ -18,7 +18,7 @@ pub struct Figures {
     pub gearbox_clearance: f64,
     /// Height of the tip's path in the machine's frame.
     pub trajectory_height: f64,
-    /// Length of the pitch curve over pi and the tooth count; `None` without a tooth count.
+    /// Length of the pitch curve, divided by pi and the tooth count, mm; `None` if there is no tooth count.
     pub module: Option<f64>,
 }
 
@@ -87,7 +87,8 @@ pub(super) fn elevation(direction: f64, sign: f64) -> f64 {
     seen - TAU * ((seen - PI) / TAU).ceil()
 }
 
-/// Maximum distance from the carrier's axis of a point on circles of the gears' largest radii around their axes.
+/// Radius swept by the gears about the carrier's axis, mm. Each gear counts as a circle of its maximum radius; the planet has the
+/// radius of the sun.
 pub(super) fn swept_radius(a: f64, bend: f64, sun: f64, intermediate: f64) -> f64 {
     // The planet's axis is 2 a cos(bend/2) from the sun's.
     let planet = 2.0 * a * (0.5 * bend).cos() + sun;

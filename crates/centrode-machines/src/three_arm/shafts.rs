@@ -65,7 +65,8 @@ impl ThreeArm {
         all.into_iter().flatten().collect()
     }
 
-    /// Shaft of the sun. It is fixed, and the carrier turns about it. `None` without a gearbox or a bore of the sun.
+    /// Shaft of the sun. It is fixed, and the carrier turns about it. `None` if there is no gearbox, or the sun has no
+    /// bore.
     #[must_use]
     pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
         let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);

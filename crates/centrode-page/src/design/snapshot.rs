@@ -209,7 +209,7 @@ impl Adjacent {
 }
 
 impl Subject {
-    /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
+    /// Resolves a design file and draws it. If there is no mechanism, the snapshot has the reason.
     ///
     /// # Errors
     /// The snapshot with the reason.

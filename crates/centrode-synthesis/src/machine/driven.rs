@@ -74,7 +74,7 @@ pub enum GearDriveError {
         /// The other body.
         body: String,
     },
-    /// No goal says what is required.
+    /// No goal defines the output.
     #[error(
         "no goal defines the output: give a goal with over = \"deviation\", uniform and within_deg, or, for a rest, a goal with over = \"span\", maximum and within_deg"
     )]

@@ -28,7 +28,7 @@ pub struct GuidedStep {
     pub moves: Vec<(String, [f64; 2])>,
     /// The goal's miss before and after, as a share of its scale.
     pub miss: [f64; 2],
-    /// Growth of the misses of all other goals together; below zero if they gained, too.
+    /// Growth of the total miss of all other goals; negative if the total fell.
     pub others: f64,
     /// Number of the parameters that would have helped this goal.
     pub helpful: usize,
@@ -53,9 +53,18 @@ impl fmt::Display for GuidedStep {
             self.helpful
         )?;
         match self.others {
-            others if others.abs() < 5e-5 => write!(out, "the other goals do not change"),
-            others if others > 0.0 => write!(out, "the other goals lose {others:.4}"),
-            others => write!(out, "the other goals gain {:.4}", -others),
+            others if others.abs() < 5e-5 => {
+                write!(out, "the total miss of the other goals does not change")
+            }
+            others if others > 0.0 => write!(
+                out,
+                "the total miss of the other goals grows by {others:.4}"
+            ),
+            others => write!(
+                out,
+                "the total miss of the other goals falls by {:.4}",
+                -others
+            ),
         }
     }
 }

@@ -39,7 +39,7 @@ mod tests {
     /// Curvatures of the polar curves r1 = a i/(1 + i) and r2 = a/(1 + i), by differences.
     #[test]
     fn curvatures_are_those_of_the_pitch_curves() {
-        // ln i by the driver's angle, and the driven angle.
+        // w = ln i as a function of the driver's angle. The driven angle is the integral of i = exp(w).
         let w = |x: f64| 0.4 * x.cos() + 0.1 * (2.0 * x).sin();
         let x = 0.7_f64;
         let jet = [

@@ -99,7 +99,7 @@ fn every_kind_is_written_named_and_the_same_twice() {
             assert!(Path::new(line).is_file(), "{line}");
         }
         if more[1] == "all" {
-            // A body a tooth, 23 a gear, and two hubs.
+            // One body per tooth, 23 per gear, and two hubs.
             assert_eq!(names(&written), (ALL.to_vec(), 48));
         }
         export(&second, more);

@@ -425,7 +425,7 @@ fn wishes_are_reported_with_their_figures_and_what_is_out_of_reach_with_the_miss
         stated.contains("goal 2                  turn of the carrier from point 1 to point 5"),
         "{stated}"
     );
-    // What the command line says goes before what the file does.
+    // Values of the command line replace those of the file.
     let run = fed(
         &["reverse", "-", "--axis", "260,160", "--arms", "2"],
         design.as_bytes(),

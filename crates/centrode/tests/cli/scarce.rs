@@ -101,7 +101,7 @@ fn few_descriptors_do_for_a_check_and_an_export() {
         let [one, other] = [6, number].map(|n| files(&folder.path().join(format!("out{n}"))));
         assert!(one == other && !one.is_empty(), "{number}");
     }
-    // Where not even the files can be opened, the message says so.
+    // If not even the files can be opened, the message has this reason.
     for number in [3, 4] {
         let line = format!("ulimit -n {number}; exec \"$c\" export {pair} --to none --format svg");
         let run = shell(folder.path(), &line);

@@ -355,7 +355,7 @@ fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
     ] {
         assert!(stated.contains(line), "{line} in {stated}");
     }
-    // Without constraint (16), half a turn is reached within a millionth of a degree, and the file says it.
+    // Without constraint (16), half a turn is reached within a millionth of a degree, and the file has it.
     let without = fs::read_to_string(&published).expect("shipped");
     let without = without.replace("transmission_angle_deg = 40", "transmission_angle_deg = 0");
     fs::write(

@@ -122,7 +122,7 @@ fn what_cannot_work_is_an_error_and_what_nobody_can_measure_is_a_note() {
             1,
             "error pins-collide",
         ),
-        // Almost flat once a turn: its angle is 0.76 mrad by the law of cosines, and 24 mrad in the second.
+        // Almost flat once per turn: its angle is 0.76 mrad by the law of cosines, and 24 mrad in the second.
         (
             four_bar(100.0, [40.0, 80.0, 60.000_001], LOAD),
             1,

@@ -26,7 +26,7 @@ fn printed(sheet: &Sheet) -> (Vec<&str>, Vec<(&str, usize)>) {
     (words, lines)
 }
 
-/// Holds parts list and general arrangement against those of another machine, and against what they must say.
+/// Compares parts list and general arrangement with those of another machine, and with the required texts.
 pub(super) fn assert_alike(
     machine: &LinkedMachine,
     again: &LinkedMachine,

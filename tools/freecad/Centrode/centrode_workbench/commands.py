@@ -22,7 +22,7 @@ def register():
 
 
 def chosen():
-    """Give the design that is selected, or the only one of the document; None where there is none or a choice."""
+    """Give the design that is selected, or the only one of the document; None if there is none, or several."""
     document = FreeCAD.ActiveDocument
     if document is None:
         return None

@@ -138,14 +138,15 @@ pub(in crate::contact) struct GearOutline<'a> {
     max_radius: f64,
     /// Maximum distance of the outline from the axis per sector of directions, mm.
     sector_radii: Vec<f64>,
-    /// Distance up to which the sectors are valid, mm.
+    /// Maximum `near` for which `is_near` can use the sector radii, mm.
     margin: f64,
 }
 
-/// Minimum number of sectors of an outline. Fewer make the test coarse, more take longer to fill.
+/// Minimum number of sectors of an outline. Fewer sectors make the test coarse, more take longer to fill.
 const MIN_SECTORS: usize = 72;
 
-/// Parts per sector of an outline that needs more sectors.
+/// Parts per sector of an outline with many parts. More parts per sector make the test coarse, fewer take longer to
+/// fill.
 const PARTS_PER_SECTOR: usize = 8;
 
 impl<'a> GearOutline<'a> {

@@ -3,7 +3,9 @@ use centrode_geometry::Point;
 
 use crate::contact::contour::Pose;
 
-/// Maximum motion of the driven gear within its backlash: the path at a radius equal to the centre distance, modules.
+/// Maximum motion of the driven gear within its backlash, modules of path at a radius equal to the centre distance.
+/// Beyond it the position of the law is used. A smaller limit would ignore a large backlash; a larger one accepts
+/// rotations of gears whose normal passes close to the axis.
 const MAX_TURN: f64 = 4.0;
 
 /// Position of the driven gear within its backlash.
@@ -16,7 +18,7 @@ pub(super) enum BacklashPosition {
 }
 
 impl BacklashPosition {
-    /// The position in which flanks touch as designed, with the driver pushing on (`sign` 1) or back (-1).
+    /// The position in which flanks touch as designed, with the driver pushing forward (`sign` 1) or back (-1).
     pub(super) fn of(pair: &GearPair, sign: f64) -> Self {
         if pair.backlash() > 0.0 {
             Self::Pushed(sign)
@@ -47,8 +49,8 @@ impl BacklashPosition {
     }
 }
 
-/// Distance of the driven axis from the line of action of the law, r2 cos(alpha -+ mu), with the driver pushing on (`sign` 1) or back
-/// (-1), mm.
+/// Distance of the driven axis from the line of action of the law, r2 cos(alpha -+ mu), with the driver pushing forward
+/// (`sign` 1) or back (-1), mm.
 pub(super) fn lever(pair: &GearPair, point: &PitchContact, sign: f64) -> f64 {
     let (sin, cos) = pair.pressure_angle().sin_cos();
     let (along, across) = point.inclination;

@@ -79,10 +79,10 @@ impl ExtremeSearch<'_> {
     /// A clearance at a driver angle, mm.
     fn clearance(&mut self, from: ClearanceFrom, phi: f64) -> f64 {
         let point = at_angle(self.pair, phi);
-        let flanks_carry = self.flanks_carry;
+        let flanks_transmit = self.flanks_transmit;
         let meshing = self.meshing();
-        // Flanks that carry the motion hold the driven gear at the law's angle, unless something penetrates there.
-        let at_law = flanks_carry
+        // Flanks that transmit the motion hold the driven gear at the law's angle, unless something penetrates there.
+        let at_law = flanks_transmit
             .then(|| meshing.clearances_at_law(&point))
             .flatten();
         let clearances = at_law.unwrap_or_else(|| {

@@ -18,25 +18,33 @@ use crate::progress::{Steps, filling};
 /// Samples per pitch if contact may be lost over a small part of a pitch. Fewer miss such parts; the time grows with the number.
 const FINE_SAMPLES_PER_PITCH: u32 = 48;
 
-/// Maximum number of samples per run. Within a run each search starts from the result of the previous sample.
+/// Maximum number of samples per run. Within a run each search starts from the result of the previous sample. Shorter
+/// runs repeat the slow first search more often, longer runs share the work unevenly between cores.
 const SAMPLES_PER_RUN: u32 = 512;
 
-/// The number of runs, if above one, is a multiple of this, so that the cores share them evenly.
+/// The number of runs, if above one, is a multiple of this, so that the cores share them evenly. It only affects the
+/// time.
 const RUN_MULTIPLE: u32 = 4;
 
-/// Transmission error below which complete teeth at most graze a fillet, rad. The search between a few samples then finds its maximum.
+/// Transmission error below which complete teeth at most graze a fillet, rad. The search between a few samples then
+/// finds its maximum. A larger limit misses short losses of contact, a smaller one uses the slow fine sampling more
+/// often.
 const GRAZING_ERROR: f64 = 1e-6;
 
-/// Transmission error below which flanks carry the motion, rad.
-pub(super) const CARRIED_ERROR: f64 = 1e-9;
+/// Transmission error below which flanks transmit the motion, rad. It must be above the rounding of the driven angle,
+/// and below any error of an edge contact that is reported.
+pub(super) const EXACT_ERROR: f64 = 1e-9;
 
-/// Penetration above which gears have no room for each other, modules.
+/// Penetration above which gears have no room for each other, modules. A smaller depth counts tips that graze a fillet,
+/// a larger one misses teeth that cannot mesh.
 const INTERFERENCE_DEPTH: f64 = 0.05;
 
-/// Share of samples without room above which gears interfere.
+/// Share of samples without room above which gears interfere. A smaller share reports one bad tooth of many as
+/// interference of the whole pair; a larger one searches extremes of gears that cannot turn.
 const INTERFERENCE_SHARE: f64 = 0.02;
 
-/// Share of samples off the law above which gears run on their edges.
+/// Share of samples off the law above which gears run on their edges. With a smaller share a few short teeth are
+/// enough; with a larger one the slow search also follows gears without useful contact.
 const EDGE_SHARE: f64 = 0.2;
 
 /// The contact of a pair along one whole cycle, one value per input.
@@ -46,24 +54,25 @@ pub struct Contact {
     pub input: Vec<f64>,
     /// Driven angle of the law, rad.
     pub law: Vec<f64>,
-    /// Driven angle when the driver pushes the driven gear on, rad.
+    /// Driven angle when the driver pushes the driven gear forward, rad.
     pub driven_angle: Vec<f64>,
     /// Driven angle when the driver pushes the driven gear back, rad.
     pub reverse_driven_angle: Vec<f64>,
-    /// Driven angle when the driver pushes the driven gear on, minus the law and the designed half backlash, rad.
+    /// Driven angle when the driver pushes the driven gear forward, minus the law and the designed half backlash, rad.
     pub transmission_error: Vec<f64>,
     /// Transmission error with the driver pushing the driven gear back, rad.
     pub reverse_transmission_error: Vec<f64>,
     /// Angular backlash of the driven gear with the driver held, rad.
     pub backlash: Vec<f64>,
     /// Normal backlash, mm: angular backlash times the distance of the driven axis from the line of action, along which the
-    /// driver pushes on by the law, `r2 cos(alpha)` (ISO 21771).
+    /// driver pushes forward by the law, `r2 cos(alpha)` (ISO 21771).
     pub normal_backlash: Vec<f64>,
-    /// Pairs of teeth in contact when the driver pushes the driven gear on.
+    /// Pairs of teeth in contact when the driver pushes the driven gear forward.
     pub contacts: Vec<u32>,
     /// Pairs of teeth in contact when the driver pushes the driven gear back.
     pub reverse_contacts: Vec<u32>,
-    /// Whether flanks face each other as designed when the driver pushes the driven gear on. If not, an edge drives.
+    /// Whether flanks face each other as designed when the driver pushes the driven gear forward. If not, an edge
+    /// drives.
     pub on_flanks: Vec<bool>,
     /// Whether flanks face each other as designed when the driver pushes the driven gear back.
     pub reverse_on_flanks: Vec<bool>,
@@ -74,8 +83,8 @@ pub struct Contact {
     pub clearance: Vec<f64>,
     /// Minimum clearance from a fillet in the same position, mm; infinite if nothing is near.
     pub fillet_clearance: Vec<f64>,
-    /// Maximum sliding speed per driver speed when the driver pushes the driven gear on, mm/rad: of the flanks in contact or,
-    /// if no flanks are, of the edges.
+    /// Maximum sliding speed per driver speed when the driver pushes the driven gear forward, mm/rad: of the flanks in
+    /// contact or, if no flanks are, of the edges.
     pub sliding: Vec<f64>,
 }
 
@@ -143,7 +152,8 @@ impl Contact {
             && oscillates_every_two_teeth(pair)
     }
 
-    /// Whether flanks face each other as designed, per sample, with the driver pushing on and with the driver pushing back.
+    /// Whether flanks face each other as designed, per sample, with the driver pushing forward and with the driver
+    /// pushing back.
     pub(crate) fn on_flanks_in_both_directions(&self) -> impl Iterator<Item = bool> {
         let both = self.on_flanks.iter().zip(&self.reverse_on_flanks);
         both.map(|(on, back)| *on && *back)

@@ -13,14 +13,16 @@ use super::{
 };
 use crate::contact::seat::Meshing;
 
-/// Share of a pitch next to a change within which the count of a sample is uncertain: the gap at the edge still counts as
-/// contact there.
+/// Share of a pitch next to a change within which the count of a sample is uncertain: the gap at the edge still counts
+/// as contact there. A smaller share compares uncertain samples, a larger one compares fewer samples.
 const UNCERTAIN_SHARE: f64 = 0.02;
 
-/// Share of a pitch within which edges of both gears can end the same contact.
+/// Share of a pitch within which edges of both gears can end the same contact. A larger share merges the ends of two
+/// contacts, a smaller one counts one contact twice.
 const SAME_CONTACT_SHARE: f64 = 0.25;
 
-/// Minimum duration of a count, as a share of a pitch. A shorter count is rounding.
+/// Minimum duration of a count, as a share of a pitch. A shorter count is rounding. A much larger limit hides real
+/// short counts.
 const MIN_DURATION_SHARE: f64 = 1e-9;
 
 /// Number of pairs of teeth in contact over a cycle.
@@ -224,11 +226,11 @@ impl<'a> CountChanges<'a> {
     }
 }
 
-/// Contacts over a cycle, with the driver pushing on and pushing back.
+/// Contacts over a cycle, with the driver pushing forward and pushing back.
 pub(super) struct CycleContacts {
-    /// Counts with the driver pushing on.
+    /// Counts with the driver pushing forward.
     pub(super) counts: ContactCounts,
-    /// Intervals over which no flanks are in contact, with the driver pushing on or back.
+    /// Intervals over which no flanks are in contact, with the driver pushing forward or back.
     pub(super) gaps: Vec<AngleInterval>,
     /// Share of the cycle that these intervals take: the larger one of the two directions.
     pub(super) lost: f64,
@@ -265,7 +267,7 @@ impl ExtremeSearch<'_> {
         let mut lost = on.as_ref().map_or(off, share);
         let counts = on.unwrap_or_else(|| counts_of_samples(contact));
         let mut gaps = counts.gaps.clone();
-        // If the pair is mirrored, the contact pushed back is the mirror image of the contact pushed on.
+        // If the pair is mirrored, the contact pushed back is the mirror image of the contact pushed forward.
         if !self.base.is_mirrored() {
             let edges = self
                 .meshing()
@@ -277,16 +279,17 @@ impl ExtremeSearch<'_> {
         CycleContacts { counts, gaps, lost }
     }
 
-    /// Counts from the ends of the flanks, with the driver pushing on (`sign` 1) or back (-1). `None` if they disagree with other counts:
+    /// Counts from the ends of the flanks, with the driver pushing forward (`sign` 1) or back (-1). `None` if they
+    /// disagree with other counts:
     ///
-    /// 1. if the flanks carry the motion at all samples: with the counts of the samples;
+    /// 1. if the flanks transmit the motion at all samples: with the counts of the samples;
     /// 2. otherwise: with the flanks that face each other midway between two changes.
     fn flank_counts(&mut self, edges: &[EdgeContact], sign: f64) -> Option<ContactCounts> {
-        let (pair, contact, base, flanks_carry) =
-            (self.pair, self.contact, self.base, self.flanks_carry);
+        let (pair, contact, base, flanks_transmit) =
+            (self.pair, self.contact, self.base, self.flanks_transmit);
         let meshing = self.meshing();
         let changes = CountChanges::new(meshing, edges)?;
-        let samples: Vec<CountAt> = if flanks_carry {
+        let samples: Vec<CountAt> = if flanks_transmit {
             let counted = if sign > 0.0 {
                 &contact.contacts
             } else {

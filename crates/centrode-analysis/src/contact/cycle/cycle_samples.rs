@@ -6,10 +6,12 @@ use centrode_gear::{GearPair, Member, PitchContact};
 
 use super::{Contact, sample::Sample};
 
-/// Minimum number of samples per period, before one sample is added.
+/// Minimum number of samples per period, before one sample is added. Fewer miss extremes of pairs with few teeth per
+/// period, more take longer.
 const MIN_SAMPLES: u32 = 24;
 
-/// Difference of driver angles up to which samples count as copies, rad.
+/// Difference of driver angles up to which samples count as copies, rad: above rounding, far below the distance of
+/// samples.
 const SAME_ANGLE: f64 = 1e-9;
 
 /// Samples of one cycle.

@@ -9,10 +9,12 @@ use super::{
 use crate::contact::contour::{GearOutline, OutlinePart, Pose};
 use crate::contact::seat::{Foot, Meshing, ProximityKind, foot};
 
-/// Distance of a point from a flank's bounds within which the flank is a candidate for contact, modules.
+/// Distance of a point from the circle around a group of parts within which these are candidates for contact, modules.
+/// A larger distance takes longer; a smaller one could miss contacts by rounding or backlash.
 const MATE_DISTANCE: f64 = 1e-3;
 
-/// Distance of an edge from the end of a flank's part within which it touches that end, modules.
+/// Distance of an edge from the end of a flank's part within which it touches that end, modules. Ten times less misses
+/// contacts by rounding; ten times more accepts edges that pass the end.
 const END_ROUNDING: f64 = 1e-6;
 
 /// Cosine of the angle between the normals of an edge and of the flank that it touches. They are opposite, apart from the backlash, which
@@ -52,7 +54,8 @@ impl FlankEnd {
     }
 }
 
-/// Ends of the flanks that push the driven gear on (`sign` 1) or back (-1): at the tip and at the start of the fillet.
+/// Ends of the flanks that push the driven gear forward (`sign` 1) or back (-1): at the tip and at the start of the
+/// fillet.
 fn flank_ends(body: &GearOutline<'_>, sign: f64) -> Vec<FlankEnd> {
     let count = body.parts.len();
     // The driver turns clockwise and pushes along its outward normals. The driven gear turns counter-clockwise and is pushed against
@@ -99,8 +102,8 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
 }
 
 impl Meshing<'_> {
-    /// Edge contacts of both gears over one period with the driver pushing on (`sign` 1) or back (-1), in descending order of
-    /// sliding speed.
+    /// Edge contacts of both gears over one period with the driver pushing forward (`sign` 1) or back (-1), in
+    /// descending order of sliding speed.
     pub(super) fn edge_contacts(&self, sampling: &PoseSampling, sign: f64) -> Vec<EdgeContact> {
         let mut found = Vec::new();
         let pair = self.pair;
@@ -170,8 +173,8 @@ impl Meshing<'_> {
         })
     }
 
-    /// Number of pairs of teeth whose flanks face each other as designed at a contact of the pitch curves, with the driver pushing on
-    /// (`sign` 1) or back (-1).
+    /// Number of pairs of teeth whose flanks face each other as designed at a contact of the pitch curves, with the
+    /// driver pushing forward (`sign` 1) or back (-1).
     pub(super) fn facing_teeth(
         &mut self,
         point: &PitchContact,

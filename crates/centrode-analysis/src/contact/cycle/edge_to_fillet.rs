@@ -9,13 +9,15 @@ use super::{cycle_samples::at_angle, pose_sampling::PoseSampling};
 use crate::contact::contour::{Corner, GearOutline, Pose};
 use crate::contact::seat::{Meshing, facing_driven_corner, facing_driver_corner};
 
-/// Search distance as a multiple of the known clearance.
+/// Search distance as a multiple of the known clearance. A smaller factor misses candidates, a larger one takes longer.
 const SEARCH_FACTOR: f64 = 4.0;
 
-/// Minimum search distance, modules.
+/// Minimum search distance, modules, if the known clearance is almost zero. A smaller one misses candidates, a larger
+/// one takes longer.
 const MIN_SEARCH_DISTANCE: f64 = 0.02;
 
-/// Maximum motion of an edge in a step, as a multiple of its motion in the steps before and after.
+/// Maximum motion of an edge in a step, as a multiple of its motion in the steps before and after. A smaller factor
+/// skips steps in which the edge comes near, a larger one examines more steps.
 const STEP_FACTOR: f64 = 1.5;
 
 /// Possible drop of a clearance below its minimum at three steps, as a share of the second difference: that of a kink. The

@@ -7,26 +7,29 @@ use super::{
     Contact,
     backlash_position::BacklashPosition,
     clearances::ClearanceFrom,
-    contact::CARRIED_ERROR,
+    contact::EXACT_ERROR,
     contact_count::CycleContacts,
     cycle_samples::{AngleInterval, DistinctSamples, at_angle, period},
     pose_sampling::PoseSampling,
 };
 use crate::contact::seat::Meshing;
 
-/// Rounding of the driven angle of a seat, rad.
+/// Rounding of the driven angle of a seat, rad. Peaks that differ by less are not searched. Ten times less follows
+/// noise, ten times more makes the maximum error that much less accurate.
 pub(super) const ANGLE_ROUNDING: f64 = 1e-12;
 
-/// Relative difference below which two peaks count as equal.
+/// Relative difference below which two peaks count as equal. A larger one makes the maximum less accurate, a smaller
+/// one follows peaks that differ by rounding.
 pub(super) const EQUAL_PEAKS: f64 = 1e-10;
 
-/// Pitches before and after the deepest penetration of an edge into a fillet that contain the maximum error caused by it.
+/// Pitches before and after the deepest penetration of an edge into a fillet that contain the maximum error caused by
+/// it. A shorter interval misses this maximum, a longer one takes longer to search.
 const SUSPECT_REACH: f64 = 1.0 / 16.0;
 
 /// Minimum and maximum of the figures of a contact over the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactExtremes {
-    /// Maximum magnitude of the transmission error with the driver pushing on, rad.
+    /// Maximum magnitude of the transmission error with the driver pushing forward, rad.
     pub transmission_error: Extreme,
     /// Maximum magnitude of the transmission error with the driver pushing back, rad.
     pub reverse_transmission_error: Extreme,
@@ -40,18 +43,19 @@ pub struct ContactExtremes {
     pub clearance: Extreme,
     /// Minimum clearance from a fillet, mm; infinite if nothing is near.
     pub fillet_clearance: Extreme,
-    /// Maximum sliding speed of teeth in contact per driver speed, mm/rad, with the driver pushing on. For circular gears it does
-    /// not depend on the backlash.
+    /// Maximum sliding speed of teeth in contact per driver speed, mm/rad, with the driver pushing forward. For
+    /// circular gears it does not depend on the backlash.
     pub sliding: Extreme,
-    /// Minimum and maximum number of pairs of teeth in contact with the driver pushing on. They follow from the driver angles at
-    /// which contacts reach the ends of flanks. They are those of the samples if the gears are not followed, or if these ends disagree
-    /// with the flanks that face each other between them. An edge that drives alone counts as one.
+    /// Minimum and maximum number of pairs of teeth in contact with the driver pushing forward. They follow from the
+    /// driver angles at which contacts reach the ends of flanks. They are those of the samples if the gears are not
+    /// followed, or if these ends disagree with the flanks that face each other between them. An edge that drives alone
+    /// counts as one.
     pub contacts: [Extreme; 2],
     /// Contact ratio: mean number of pairs of flanks in contact along the pitch curve, not over the angle, found in the same
     /// way. An edge that drives alone counts as zero. For circular gears it is the transverse contact ratio of ISO 21771.
     pub contact_ratio: f64,
-    /// Share of the cycle, by driver angle, over which no flanks are in contact, with the driver pushing on or back, the larger of both.
-    /// It is found in the same way.
+    /// Share of the cycle, by driver angle, over which no flanks are in contact, with the driver pushing forward or
+    /// back, the larger of both. It is found in the same way.
     pub lost: f64,
 }
 
@@ -79,7 +83,7 @@ impl Contact {
             pair,
             base: DistinctSamples::new(self, pair),
             is_followed: self.is_followed(pair),
-            flanks_carry: self.flanks_carry(),
+            flanks_transmit: self.flanks_transmit(),
             meshing: ready,
         };
         let a = pair.center_distance();
@@ -102,11 +106,12 @@ impl Contact {
             false => Vec::new(),
         };
         let CycleContacts { counts, gaps, lost } = search.contacts(&edges, &sampling, &seats);
-        // Flanks that carry the motion hold the driven gear at the law's angle. Then edges can be followed along fillets.
+        // Flanks that transmit the motion hold the driven gear at the law's angle. Then edges can be followed along
+        // fillets.
         let sampled = self.fillet_clearance.iter().copied();
         let sampled = sampled.fold(f64::INFINITY, f64::min);
         let nearest = search
-            .flanks_carry
+            .flanks_transmit
             .then(|| search.edges_to_fillets(sampling, sampled));
         let nearest = nearest.flatten();
         let suspects = search.suspects(gaps, nearest, &seats);
@@ -114,7 +119,7 @@ impl Contact {
         let transmission_error = search.maximum_with_suspects(error, transmission_error, &suspects);
         ContactExtremes {
             transmission_error,
-            // If the pair is mirrored, the driven gear pushed back is the mirror image of the one pushed on.
+            // If the pair is mirrored, the driven gear pushed back is the mirror image of the one pushed forward.
             reverse_transmission_error: if search.base.is_mirrored() {
                 Extreme {
                     input: (-transmission_error.input).rem_euclid(pair.cycle()),
@@ -142,9 +147,9 @@ impl Contact {
         }
     }
 
-    /// Whether the flanks carry the motion at every sample.
-    pub(super) fn flanks_carry(&self) -> bool {
-        self.errors_below(CARRIED_ERROR)
+    /// Whether the flanks transmit the motion at every sample.
+    pub(super) fn flanks_transmit(&self) -> bool {
+        self.errors_below(EXACT_ERROR)
     }
 
     /// Whether all transmission errors are below a limit, rad.
@@ -223,8 +228,8 @@ pub(super) struct ExtremeSearch<'a> {
     pub(super) base: DistinctSamples,
     /// Whether figures are searched between the samples.
     pub(super) is_followed: bool,
-    /// Whether the flanks carry the motion at every sample.
-    pub(super) flanks_carry: bool,
+    /// Whether the flanks transmit the motion at every sample.
+    pub(super) flanks_transmit: bool,
     /// Prepared on first use.
     meshing: Option<Meshing<'a>>,
 }
@@ -297,15 +302,15 @@ impl<'a> ExtremeSearch<'a> {
         best
     }
 
-    /// Intervals in which the flanks may not carry the motion although they do at all samples: around gaps between contacts of flanks, and
-    /// around the deepest penetration of an edge into a fillet.
+    /// Intervals in which the flanks may not transmit the motion although they do at all samples: around gaps between
+    /// contacts of flanks, and around the deepest penetration of an edge into a fillet.
     fn suspects(
         &mut self,
         mut suspects: Vec<AngleInterval>,
         nearest: Option<Extreme>,
         seats: &[PoseSampling],
     ) -> Vec<AngleInterval> {
-        if !self.flanks_carry {
+        if !self.flanks_transmit {
             return Vec::new();
         }
         let reach = SUSPECT_REACH * period(self.pair) / f64::from(self.pair.period());
@@ -364,7 +369,8 @@ impl<'a> ExtremeSearch<'a> {
         worst
     }
 
-    /// Poses of a pair with backlash, with the driven gear pushed on and, unless that is the mirror image, pushed back.
+    /// Poses of a pair with backlash, with the driven gear pushed forward and, unless that is the mirror image, pushed
+    /// back.
     fn seats(&self) -> Vec<PoseSampling> {
         if !self.is_followed || self.pair.backlash() == 0.0 {
             return Vec::new();

@@ -6,13 +6,15 @@ use super::Contact;
 use crate::contact::contour::Pose;
 use crate::contact::seat::Meshing;
 
-/// Difference of neighbouring samples below which no jump is searched, rad.
+/// Minimum jump that is reported, and minimum difference of neighbouring samples at which one is searched, rad. Ten
+/// times less reports changes of contact as jumps, ten times more hides small jumps.
 const MIN_JUMP: f64 = 1e-6;
 
-/// Interval of the driver angle to which a jump is bisected, rad.
+/// Interval of the driver angle to which a jump is bisected, rad. Its size limits the accuracy of the reported angle.
 const SETTLED: f64 = 1e-9;
 
-/// Minimum ratio of a difference to its neighbours at which a jump is searched.
+/// Minimum ratio of a difference to its neighbours at which a jump is searched. A larger ratio misses jumps next to
+/// other jumps, a smaller one searches smooth motion.
 const JUMP_RATIO: f64 = 2.0;
 
 /// A jump of the driven angle while the driver holds the driven gear.
@@ -22,21 +24,22 @@ pub struct SeatJump {
     pub input: f64,
     /// Size of the jump, rad of the driven gear.
     pub turn: f64,
-    /// Whether the driven gear is pushed back when it jumps, not pushed on.
+    /// Whether the driven gear is pushed back when it jumps, not pushed forward.
     pub is_reverse: bool,
     /// Teeth of driver and driven gear that meet within the backlash, counted from 0.
     pub teeth: (u32, u32),
 }
 
 impl Contact {
-    /// Driver angles at which the driven angle jumps, with the driver pushing on or back, the largest jump first.
+    /// Driver angles at which the driven angle jumps, with the driver pushing forward or back, the largest jump first.
     ///
-    /// From there on the driven gear has two ranges of positions, one on either side of a tooth. Jumps are searched between
-    /// samples whose difference is more than twice each neighbouring difference, so a jump next to another large one may be
-    /// missed. The list is empty without backlash, and for gears that are not followed ([`Self::is_followed`]).
+    /// From there on the driven gear has two ranges of positions, one on either side of a tooth. Jumps are searched
+    /// between samples whose difference is more than twice each neighbouring difference, so a jump next to another
+    /// large one may be missed. The list is empty if the pair has no backlash, if the flanks alone transmit the motion, and for gears
+    /// that are not followed ([`Self::is_followed`]).
     #[must_use]
     pub fn seat_jumps(&self, pair: &GearPair) -> Vec<SeatJump> {
-        if self.flanks_carry() || !self.is_followed(pair) {
+        if self.flanks_transmit() || !self.is_followed(pair) {
             return Vec::new();
         }
         let mut meshing = Meshing::new(pair);

@@ -14,14 +14,16 @@ use crate::contact::seat::{
     ContactNormal, FacingFlanks, Meshing, Proximity, ProximityKind, SeatedPose,
 };
 
-/// Distance from the end of a contact at which it is sampled, pitches.
+/// Distance from the end of a contact at which it is sampled, pitches: on the side of the contact in spite of rounding,
+/// and so close that the sliding speed is that of the end.
 const END_OFFSET: f64 = 2.5e-10;
 
 /// Distance from an edge contact within which the contact ends with the driven gear at its seat, pitches: the edge contact is exact to
 /// the first order of the backlash. Ten times less misses ends at a large backlash, ten times more takes another contact for it.
 const END_SEARCH: f64 = 1e-2;
 
-/// Minimum drop of the sliding speed at the end of the fastest contact, as a share, and its maximum change within [`END_SEARCH`].
+/// Minimum drop of the sliding speed at the end of the fastest contact, as a share, and its maximum change within
+/// [`END_SEARCH`]. A larger share misses ends, a smaller one takes a normal change for an end.
 const SPEED_CHANGE: f64 = 0.05;
 
 /// The part if it belongs to a flank, otherwise the part before it if that one does: a corner is at the start of its part.
@@ -32,8 +34,8 @@ fn flank_part(body: &GearOutline<'_>, part: usize) -> Option<usize> {
 }
 
 impl Meshing<'_> {
-    /// Maximum sliding speed per driver speed, mm/rad, with the driver pushing on (`sign` 1) or back (-1): of the flanks that touch as
-    /// designed or, if none do, of the edges at the seat.
+    /// Maximum sliding speed per driver speed, mm/rad, with the driver pushing forward (`sign` 1) or back (-1): of the
+    /// flanks that touch as designed or, if none do, of the edges at the seat.
     ///
     /// Flanks that face each other at the law's angle have half the backlash between them. They are followed until they touch.
     pub(super) fn sliding(
@@ -80,7 +82,7 @@ impl ExtremeSearch<'_> {
             values: &contact.sliding,
         }
         .maximum();
-        let (pair, flanks_carry) = (self.pair, self.flanks_carry);
+        let (pair, flanks_transmit) = (self.pair, self.flanks_transmit);
         let pitch = period(pair) / f64::from(pair.period());
         // Maximum speed at the ends found so far: slower ends are skipped.
         let mut ended: f64 = 0.0;
@@ -91,7 +93,7 @@ impl ExtremeSearch<'_> {
             }
             let meshing = self.meshing();
             // Gears off their law may touch at any point.
-            if flanks_carry && !meshing.reaches_mate(edge) {
+            if flanks_transmit && !meshing.reaches_mate(edge) {
                 continue;
             }
             let mut value = |phi: f64| meshing.sample(&at_angle(pair, phi)).loaded[0].sliding;

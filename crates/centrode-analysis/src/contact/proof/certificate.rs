@@ -32,7 +32,7 @@ pub struct Proof {
     pub driver: Vec<Vec<[f64; 2]>>,
     /// The driven gear's contour.
     pub driven: Vec<Vec<[f64; 2]>>,
-    /// Equal parts of the cycle, after each of which both contours and the law are as before it but for rounding.
+    /// Number of equal parts of the cycle after which both contours and the law repeat, apart from rounding.
     pub sectors: u32,
     /// Stretches of the first part of the cycle from 0 on, each starting where the one before it ends.
     pub stretches: Vec<ProofStretch>,
@@ -45,22 +45,23 @@ pub struct ProofStretch {
     pub from: f64,
     /// Last driver angle, rad.
     pub to: f64,
-    /// Chebyshev coefficients of the seat less the law, rad: pushed on, pushed back.
+    /// Chebyshev coefficients of the seat less the law, rad: pushed forward, pushed back.
     pub seats: [Vec<f64>; 2],
-    /// Which of the meetings holds the driven gear: pushed on, pushed back.
+    /// Which of the meetings holds the driven gear: pushed forward, pushed back.
     pub held_by: [usize; 2],
-    /// Features that meet or nearly do.
+    /// Features that touch or nearly touch.
     pub meetings: Vec<ProofMeeting>,
 }
 
 /// Features of the two contours that meet when the driven gear is turned.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub struct ProofMeeting {
-    /// 0 where it holds the gear pushed on, 1 pushed back.
+    /// 0 if it holds the gear that is pushed forward, 1 if it holds the gear that is pushed back.
     pub side: usize,
     /// Pieces of the driver's and of the driven gear's contour.
     pub pieces: [usize; 2],
-    /// The gear that meets the other with a corner, 0 the driver, 1 the driven gear; neither where it is left out.
+    /// The gear that meets the other with a corner, 0 the driver, 1 the driven gear. `None` if both contours are smooth
+    /// there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner: Option<usize>,
     /// Chebyshev coefficients of the parameters on the two pieces.
@@ -122,9 +123,9 @@ pub enum ProofError {
     },
     /// A seat jumps: teeth meet within the backlash.
     #[error(
-        "at the driver angle {phi:.6} rad driver tooth {} hits driven tooth {} at ({:.4}, {:.4}) mm within the backlash, \
-        {turn:.3e} rad from the contact position of the driven gear pushed {side}, so that this position jumps: use a pitch curve of \
-        gentler curvature, or more teeth of a smaller module", .teeth.0, .teeth.1, .point.x, .point.y
+        "at the driver angle {phi:.6} rad the driven gear, pushed {side}, jumps by {turn:.3e} rad: driver tooth {} hits driven \
+        tooth {} within the backlash, at ({:.4}, {:.4}) mm in the driver's axes. Use a less curved pitch curve, or more teeth of a \
+        smaller module", .teeth.0, .teeth.1, .point.x, .point.y
     )]
     Step {
         /// Driver angle, rad.

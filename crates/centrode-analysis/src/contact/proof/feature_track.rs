@@ -18,10 +18,11 @@ const SEAT_DIFFERENCE: f64 = 0.25 * HALF_WIDTH;
 /// Inverse of the last decimal in the certificate: far below the half width and below any effect of a parameter on a parabola.
 const DECIMALS: f64 = 1e13;
 
-/// Minimum distance of a cut from the ends of a stretch, rad.
+/// Minimum distance of a cut from the ends of a stretch, rad. A smaller one leaves stretches that are too short to be
+/// proven, a larger one moves the cut away from the change of contact.
 const MIN_CUT_DISTANCE: f64 = 1e-7;
 
-/// Halvings after which a driver angle is exact.
+/// Halvings after which a driver angle is exact: 60 halvings reach the rounding of any interval.
 const HALVINGS: u32 = 60;
 
 /// Direction in which the driven gear is pushed.
@@ -32,7 +33,7 @@ pub(super) enum Side {
 }
 
 impl Side {
-    /// 1 if pushed on, -1 if pushed back.
+    /// 1 if pushed forward, -1 if pushed back.
     pub(super) fn sign(self) -> f64 {
         match self {
             Self::On => 1.0,
@@ -41,7 +42,7 @@ impl Side {
     }
 }
 
-/// Features at one driver angle, pushed on and pushed back.
+/// Features at one driver angle, pushed forward and pushed back.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FeatureSample {
     /// Driver angle, rad.

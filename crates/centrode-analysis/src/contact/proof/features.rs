@@ -7,7 +7,8 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use crate::contact::contour::Pose;
 use crate::contact::seat::{AngularContact, Meshing, SeatedPose};
 
-/// Sine of the angle between the tangents above which a corner touches, not a smooth part.
+/// Sine of the angle between the tangents above which a corner touches, not a smooth part. A smaller one takes rounding
+/// for corners, a larger one misses blunt corners.
 const SMOOTH: f64 = 1e-4;
 
 /// Parameter step below which Newton's method ends: the next error, its square, is below rounding.
@@ -17,10 +18,12 @@ const SETTLED: f64 = 1e-9;
 /// need no stretch between them.
 const OVERHANG: f64 = 1e-6;
 
-/// Parameter beyond an end up to which a corner counts as on its part. It is smaller, because the seat has a kink there.
+/// Parameter beyond an end up to which a corner counts as on its part. It is smaller than [`OVERHANG`], because the
+/// seat has a kink there.
 const CORNER_OVERHANG: f64 = 1e-8;
 
-/// Parameter beyond an end up to which a part is extrapolated.
+/// Parameter beyond an end up to which a part is extrapolated during the iteration. A smaller value rejects good
+/// starts, a larger one follows a polynomial far outside its part.
 const CONTINUED: f64 = 0.3;
 
 /// Two features that meet: two smooth parts with a common tangent, or a corner at an end of one part and the other part.

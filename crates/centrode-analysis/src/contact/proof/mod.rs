@@ -1,7 +1,7 @@
 //! Certificate of a pair's contact at every real driver angle, for another program to check.
 //!
 //! The cycle is divided into stretches. The certificate describes each stretch by Chebyshev series. Two series are the
-//! seats of the driven gear: pushed on and pushed back. The others are the parameters of every two features of the
+//! seats of the driven gear: pushed forward and pushed back. The others are the parameters of every two features of the
 //! contours that meet or nearly meet.
 //!
 //! Where two features meet, a parabola separates the two contours. A checker proves two statements:

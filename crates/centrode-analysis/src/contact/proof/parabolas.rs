@@ -10,16 +10,21 @@ use super::{
 };
 use crate::contact::contour::OutlinePart;
 
-/// Curvature margins tried for the separating parabola at a corner, 1/module: first, then fallback.
+/// Curvature margins tried for the separating parabola at a corner, 1/module: first, then fallback. A large margin is
+/// easy to check, a small one fits between close contours.
 const CORNER_MARGINS: [f64; 2] = [0.25, 0.05];
 
-/// Curvature margins tried between two smooth parts, as a share of the difference of their curvatures: first, then fallback.
+/// Curvature margins tried between two smooth parts, as a share of the difference of their curvatures: first, then
+/// fallback. A large margin is easy to check, a small one fits between close contours.
 const MARGINS: [f64; 2] = [0.25, 0.05];
 
-/// Minimum room between the curvatures over a whole stretch, as a share of their difference in its middle.
+/// Minimum room between the curvatures over a whole stretch, as a share of their difference in its middle. With less
+/// room the stretch is cut. A larger value cuts more stretches, a smaller one leaves parabolas that separate too
+/// little.
 const MIN_ROOM: f64 = 0.4;
 
-/// Magnitude of the parameter above which the piece beyond the end counts too.
+/// Magnitude of the parameter (1 is the end) above which the next piece counts too. A larger one can miss its
+/// curvature, a smaller one makes the parabolas needlessly narrow.
 const JOINT: f64 = 0.8;
 
 impl Prover<'_> {

@@ -15,29 +15,36 @@ use super::{
 use crate::contact::contour::Pose;
 use crate::contact::seat::Meshing;
 
-/// Half of the width of the proven interval of every seat, rad.
+/// Half of the width of the proven interval of every seat, rad. It must exceed the rounding of contour and seat. Ten
+/// times more weakens the statement of the certificate, ten times less fails by rounding.
 pub(super) const HALF_WIDTH: f64 = 4e-10;
 
-/// Missing room above which there is no certificate, modules at the centre distance. A smaller one is rounding of the seats.
+/// Missing room above which there is no certificate, modules at the centre distance. A smaller one is rounding of the
+/// seats.
 const OVERLAP: f64 = 1e-4;
 
-/// Stretches per driver pitch at the start; they are cut further where needed.
+/// Stretches per driver pitch at the start; they are cut further if necessary. More stretches make a larger
+/// certificate, fewer need more cuts.
 const STRETCHES: u32 = 4;
 
-/// Length of a stretch below which it is not cut, rad.
+/// Length of a stretch below which it is not cut, rad. Then there is no certificate. Ten times more gives up too early,
+/// ten times less comes near the rounding of the driver angle.
 pub(super) const SHORTEST: f64 = 1e-8;
 
-/// Sum of the last two coefficients of a series up to which it is exact, in the unit of the series.
+/// Sum of the last two coefficients of a series up to which it is exact, in the unit of the series. It must be far
+/// below [`HALF_WIDTH`]; a smaller one needs shorter stretches.
 pub(super) const TAIL: f64 = 1e-11;
 
-/// Maximum gap of features that get a parabola, modules.
+/// Maximum gap of features that get a parabola, modules. A larger one makes the certificate larger, a smaller one
+/// leaves more work to the checker.
 const NEAR: f64 = 0.05;
 
 /// Maximum gap of features for which a stretch is cut, modules. A checker separates features farther apart by circles around small
 /// parts.
 const CUT_GAP: f64 = 2e-3;
 
-/// Length of a stretch below which it is not cut for a better parabola, rad.
+/// Length of a stretch below which it is not cut for a better parabola, rad. A shorter one makes more stretches, a
+/// longer one accepts stretches without a parabola.
 const SHORT: f64 = 1e-5;
 
 /// Makes the certificate of a pair's contact, for a checker to prove.

@@ -8,10 +8,11 @@ use nalgebra::Complex;
 
 use super::prover::HALF_WIDTH;
 
-/// Tolerance of a contour after one part of the cycle, as a share of the half width times the centre distance.
+/// Maximum distance of a contour from its copy one part of the cycle later, as a share of the half width times the
+/// centre distance. A larger share would use up the proven interval, a smaller one misses the repetition by rounding.
 const ALLOWED: f64 = 0.1;
 
-/// Difference up to which angles of the law count as equal, rad.
+/// Difference up to which angles of the law count as equal, rad: above rounding, far below [`HALF_WIDTH`].
 const SAME_ANGLE: f64 = 1e-12;
 
 /// Coefficients of a contour's pieces.

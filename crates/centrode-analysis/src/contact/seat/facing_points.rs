@@ -44,16 +44,19 @@ impl FacingPoints {
     }
 }
 
-/// Parameter step below which a gap is exact: the gap depends on it to second order.
+/// Newton step of a parameter below which a gap is exact: the gap depends on the parameter to second order. Ten times
+/// more makes gaps inexact, ten times less costs a step.
 const SETTLED: f64 = 3e-7;
 
-/// Parameter beyond an end up to which a point belongs to both neighbours.
+/// Parameter beyond an end up to which a point belongs to both neighbours. A smaller one can lose a point at a joint, a
+/// larger one finds points twice.
 pub(in crate::contact) const JOINT: f64 = 1e-3;
 
 /// Rounding of a parameter at an end. Without it a point at a joint could be missed by both neighbours.
 const ON_PART: f64 = 1e-10;
 
-/// Parameter beyond an end up to which a part is extrapolated.
+/// Parameter beyond an end up to which a part is extrapolated during the iteration. A smaller value rejects good
+/// starts, a larger one follows a polynomial far outside its part.
 const CONTINUED: f64 = 0.25;
 
 /// Points at which two smooth parts face each other, by Newton's method from the parameters `at`.

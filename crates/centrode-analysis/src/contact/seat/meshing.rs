@@ -10,7 +10,8 @@ use crate::contact::contour::{
 /// Search distance of points that face each other, modules. A larger one takes longer, a smaller one misses clearances.
 const NEAR: f64 = 0.3;
 
-/// Search distance of flanks, modules. It grows if nothing is within it.
+/// Initial search distance of flanks, modules. It grows if no contact is within it. A larger one takes longer at every
+/// sample, a smaller one must grow more often.
 const CLOSE: f64 = 0.05;
 
 /// Pair under analysis, with search distances and results of the previous pose.

@@ -15,7 +15,8 @@ use crate::contact::contour::{
 /// contour by rounding.
 pub(in crate::contact) const ROUNDED: f64 = 1e-9;
 
-/// Curvature times module above which a part has a sharp bend at an end, such as a flank that ends near a cusp.
+/// Curvature times module above which a part has a sharp bend at an end, such as a flank that ends near a cusp. Such
+/// parts are searched from more starting points. A larger limit misses points, a smaller one takes longer.
 const SHARP_CURVATURE: f64 = 50.0;
 
 /// Points at which the gears face each other, and the features there.

@@ -16,10 +16,11 @@ use crate::contact::contour::{
     ContourPoint, DividedStretch, GearOutline, Pose, PosedContour, SETTLED, Stretch,
 };
 
-/// Size below which a stretch counts as a point, as a share of the tolerance of a contact.
+/// Size below which a stretch counts as a point, as a share of the tolerance of a contact. A larger share makes the
+/// seat less exact, a smaller one halves stretches down to rounding.
 const POINT: f64 = 1e-5;
 
-/// Search for the first contacts when the driven gear turns back (`sign` 1) or on (-1).
+/// Search for the first contacts when the driven gear turns back (`sign` 1) or forward (-1).
 pub(super) struct TurnSearch<'a> {
     driver: PosedContour<'a>,
     driven: PosedContour<'a>,
@@ -100,7 +101,8 @@ impl<'a> TurnSearch<'a> {
     /// Searches two stretches for a contact that may be the first.
     pub(super) fn search(&mut self, one: &DividedStretch, other: &DividedStretch) {
         let (a, b) = (&one.whole, &other.whole);
-        // A driven gear that turns back (or on) is stopped only by sides of the driver that push it on (or back).
+        // A driven gear that turns back (or forward) is stopped only by sides of the driver that push it forward (or
+        // back).
         if a.sense * self.sign > 0.0 || b.sense * self.sign < 0.0 || self.cannot_meet(a, b) {
             return;
         }
@@ -167,7 +169,7 @@ impl<'a> TurnSearch<'a> {
             }
             return;
         }
-        // Straight stretches stop the gear at their ends only, idle ones nowhere.
+        // Straight stretches stop the gear only at their ends. Idle stretches cannot stop it.
         let straight = a.bounds.sagitta + b.bounds.sagitta <= POINT * self.limits.tolerance;
         if max_curvature <= 0.0 || straight || self.is_idle(&a) || self.is_idle(&b) {
             return;
@@ -253,7 +255,7 @@ impl<'a> TurnSearch<'a> {
         }
     }
 
-    /// The one extreme of the turn between two meetings.
+    /// Meeting at the only extreme of the driven gear's rotation between two meetings. There the contours have a common tangent.
     fn extreme(&self, a: &Stretch, b: &Stretch, ends: &[MeetingPoints; 2]) -> MeetingPoints {
         let slopes = ends.each_ref().map(MeetingPoints::slope_difference);
         let share = slopes[0] / (slopes[0] - slopes[1]);

@@ -28,7 +28,7 @@ fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
     (mechanism, pair)
 }
 
-/// Both gears of every mesh placed by the links: contact carries the law, and nothing penetrates.
+/// Both gears of every mesh placed by the links: contact keeps the law, and nothing penetrates.
 #[test]
 fn all_six_meshes_carry_their_law_over_a_whole_cycle() {
     let (mechanism, pair) = gentle(|_| {});

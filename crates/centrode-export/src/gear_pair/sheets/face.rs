@@ -273,7 +273,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     draft
 }
 
-/// Bore and keyway, enlarged, with their dimensions; `None` without a keyway.
+/// Bore and keyway, enlarged, with their dimensions; `None` if the bore has no keyway.
 pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let body = part.gear.body();
     let key = body.keyway?;

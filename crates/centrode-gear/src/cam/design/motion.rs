@@ -193,7 +193,7 @@ impl MotionSpec {
         Ok(())
     }
 
-    /// Whether the strokes are angles, of a swinging follower; `None` without any stroke.
+    /// Whether the strokes are angles, of a swinging follower; `None` if there is no stroke.
     #[must_use]
     pub fn swings(&self) -> Option<bool> {
         let strokes = self.segments.iter().filter_map(SegmentSpec::strokes);

@@ -147,7 +147,7 @@ fn the_cams_motion_has_the_derivatives_of_what_it_is_chained_of() {
     }
 }
 
-/// Guards that figures say what a quick drop costs, and that the cut cam is the one a roller leaves.
+/// Guards that figures show the effect of a quick drop, and that the cut cam is the envelope of the roller.
 #[test]
 fn a_quicker_drop_is_told_by_acceleration_pressure_angle_and_undercut() {
     let fork = fork(Turn::CounterClockwise, RodJoint::PinOnRod(lever()));

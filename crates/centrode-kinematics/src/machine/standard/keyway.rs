@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::StandardTable;
 
-/// A keyway in the bore, along the body's x axis unless its body says otherwise.
+/// A keyway in the bore, along the body's x axis unless the body defines another direction.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyway {

@@ -22,8 +22,8 @@ use centrode_spec::{SpecError, degrees};
 pub struct MachineCamSpec {
     /// Point of a body on which its axis is, `frame.O`; or the body alone for its origin.
     pub on: String,
-    /// Body, or a point of one, at which the axis is where that body is carried: `arm` for a cam about the pin of an arm; left
-    /// out, the axis is where `on` says.
+    /// Body, or point of a body, that is fixed on the body of `on`: the axis of the cam is there, `arm` for a cam about
+    /// the pin of an arm. Default: the axis is at `on`.
     pub about: Option<String>,
     /// Angle at which it is mounted, of its own axes against the body's, rad (degrees in the file): where its motion begins,
     /// its x axis points along the slide of its follower, or to the follower's pin.
@@ -49,7 +49,7 @@ pub struct MachineCamSpec {
     pub body: BodySpec,
 }
 
-/// Follower of a cam on a body, by the key `kind`: the bodies say where it is held.
+/// Follower of a cam on a body, by the key `kind`. The bodies define where it is mounted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]

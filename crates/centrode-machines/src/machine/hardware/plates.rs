@@ -54,10 +54,10 @@ pub struct MachinePlatesSpec {
     pub pin_fit: String,
     /// Material, for the drawing.
     pub material: String,
-    /// Heat treatment of the plates, for the drawing; left empty, none.
+    /// Heat treatment of the plates, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
-    /// Heat treatment of the pins and of shafts without a gear, for the drawing; left empty, none.
+    /// Heat treatment of the pins and of shafts without a gear, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub pin_heat_treatment: String,
     /// Density, kg/m^3.

@@ -38,7 +38,7 @@ pub struct IntermittentSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TraverseSpec {
-    /// Lead, mm a turn of the shaft.
+    /// Lead, mm per turn of the shaft.
     pub lead: f64,
     /// Positions a lead apart from one end of a stroke to the other.
     pub holes: u32,

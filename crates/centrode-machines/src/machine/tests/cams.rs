@@ -174,7 +174,7 @@ fn a_follower_moves_as_its_cam_does_and_its_derivatives_as_differences() {
 
 #[test]
 fn a_break_of_a_cams_motion_is_one_of_its_follower() {
-    // Twice round a cycle, four breaks a turn.
+    // Two turns per cycle, four breaks per turn.
     let machine = made(&text(0, 0).replace("-4567", "-345"));
     let lever = machine.body_named("lever").expect("there");
     let law = &machine.bodies()[lever].mount.as_ref().expect("held").law;

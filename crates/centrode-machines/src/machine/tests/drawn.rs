@@ -218,7 +218,7 @@ fn contours_and_masses_that_cannot_be_are_told_by_key() {
     }
 }
 
-/// Each change of a design that says nothing of plates, and whether plates, pins and shafts are designed then.
+/// Each change of a design without keys for plates, and whether plates, pins and shafts are designed then.
 #[test]
 fn hardware_is_designed_where_the_design_describes_or_weighs_plates() {
     const BARS: &str = r#"family = "machine"

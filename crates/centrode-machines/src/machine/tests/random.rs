@@ -27,7 +27,7 @@ impl Random {
         self.next() as usize % count
     }
 
-    /// A name that says nothing of when it was given.
+    /// A name that is independent of the order of naming.
     pub(super) fn name(&mut self, number: usize) -> String {
         let letter = char::from(b'a' + (self.next() % 26) as u8);
         format!("{letter}{number}")

@@ -180,7 +180,7 @@ fn a_plate_that_turns_on_a_shaft_has_a_round_hole_of_its_size_in_the_class_of_pi
     // One length of the other's, below the plate that turns on it.
     let running = classes(wheel, false);
     assert_eq!(running.iter().filter(|class| *class == "f7").count(), 1);
-    // 12 + 1 + 6 of gear and frame, 0.3 of play between the rings, the end, and groove and land of the ring.
+    // 12 + 1 + 6 of gear and frame, 0.3 of clearance between the rings, the end, and groove and land of the ring.
     assert!((pinion.part.length() - 19.3 - 30.0 - 1.7).abs() < 1e-9);
 }
 

@@ -85,7 +85,7 @@ pub struct GearboxSpec {
     /// Nominal diameter of the screws of the plates, ISO 4762, mm: 6 for M6, 0 for none; default: the largest no thicker than a
     /// plate that finds room.
     pub screw: Option<f64>,
-    /// Heat treatment of its plates, for the drawing; left empty, none.
+    /// Heat treatment of its plates, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
 }

@@ -110,10 +110,10 @@ pub struct ForkSpec {
     pub wall: f64,
     /// Thickness, mm.
     pub width: f64,
-    /// Heat treatment of fork and roller, for the drawing; left empty, none.
+    /// Heat treatment of fork and roller, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
-    /// Heat treatment of the pins of fork, roller and push rod, for the drawing; left empty, none.
+    /// Heat treatment of the pins of fork, roller and push rod, for the drawing; empty if there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub pin_heat_treatment: String,
 }

@@ -18,7 +18,7 @@ pub struct WorkSpec {
     #[serde(rename = "planting_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub planting: Option<f64>,
-    /// Seedlings planted in a minute.
+    /// Seedlings planted per minute.
     pub rate_per_minute: f64,
     /// Distance of the plants along the row, mm; the machine moves towards the tray's side, by this much from plant
     /// to plant.

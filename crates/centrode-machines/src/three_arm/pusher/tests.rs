@@ -241,7 +241,7 @@ fn the_usual_arm_fits_every_tip_and_offset_that_leave_a_clamp_its_room() {
         }
     }
     assert!(made > 20, "{made}");
-    // Behind a clamp as long as the way to the tip there is no arm, and it says so.
+    // Behind a clamp as long as the distance to the tip there is no arm. This is an error.
     let none = with(|d| {
         d.arm.tip_distance = 80.0;
         d.arm.pusher_offset = 75.0;

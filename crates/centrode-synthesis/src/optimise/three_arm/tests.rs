@@ -36,7 +36,7 @@ fn the_start_is_the_design_itself() {
     assert_eq!(again.pitch, design.pitch);
     assert_eq!(again.tooth_count, Some(37));
     assert!(problem.moved(&start) < 1e-12);
-    // The published set misses sound teeth, and with them what full teeth would carry; nothing else.
+    // The published set misses only the goals of sound teeth and of the contact of full teeth.
     let goals = problem.goals(&start).expect("a mechanism");
     let missed: Vec<_> = goals
         .iter()
