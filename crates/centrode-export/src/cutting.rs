@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use centrode_formats::drawing::{Color, Drawing, EntityShape, LineType};
-use centrode_geometry::{LoopError, Tolerance, UncutCorner};
+use centrode_formats::sheet::number;
+use centrode_geometry::{LoopError, Outline, Point, Tolerance, UncutCorner};
 
 use crate::Layers;
 
@@ -42,7 +43,7 @@ pub(crate) fn along_the_cut(
     drawing: &mut Drawing,
     kerf: f64,
     tolerance: Tolerance,
-) -> Result<Vec<UncutCorner>, LoopError> {
+) -> Result<Vec<UncutCorner>, (String, LoopError)> {
     let mut uncut = Vec::new();
     for entity in &mut drawing.entities {
         let offset = match &*entity.layer {
@@ -52,15 +53,17 @@ pub(crate) fn along_the_cut(
         };
         match &mut entity.shape {
             EntityShape::Contour(outline) => {
-                let path = outline.cutter_path(offset, tolerance)?;
+                let path = outline.cutter_path(offset, tolerance);
+                let path = path.map_err(|error| (words(outline, offset), error))?;
                 *outline = path.path;
                 uncut.extend(path.uncut);
             }
             EntityShape::Circle { radius, .. } => {
-                *radius += offset;
-                if *radius <= tolerance.mm() {
-                    return Err(LoopError::Everywhere);
+                if *radius + offset <= tolerance.mm() {
+                    let circle = Outline::circle(Point::origin(), *radius);
+                    return Err((words(&circle, offset), LoopError::Everywhere));
                 }
+                *radius += offset;
             }
             _ => {}
         }
@@ -68,11 +71,24 @@ pub(crate) fn along_the_cut(
     Ok(uncut)
 }
 
+/// A contour in words: the outline, or a hole with its size.
+fn words(outline: &Outline, offset: f64) -> String {
+    if offset > 0.0 {
+        return "the outline".to_owned();
+    }
+    if let Some((_, radius)) = outline.as_circle() {
+        return format!("a hole of {} mm", number(2.0 * radius, 3));
+    }
+    let bounds = outline.bounds();
+    let [width, height] = (bounds.max - bounds.min).into();
+    format!("a hole of {} x {} mm", number(width, 3), number(height, 3))
+}
+
 /// Text that goes with cutting files along the middle of a cut: its width, and the corners that it does not reach, part by
 /// part.
 pub(crate) fn notes(kerf: f64, parts: &[(String, Vec<UncutCorner>)]) -> String {
     let mut text = format!(
-        "Width of the cut (kerf): {kerf} mm\nContours are the path of its middle: {} mm outside each part, inside each hole.\n",
+        "Width of the cut (kerf): {kerf} mm\nContours are the path of its middle: {} mm outside each part, inside each hole.\nDrawings of assemblies and contours for a lathe are not changed.\n",
         0.5 * kerf
     );
     for (part, uncut) in parts {

@@ -65,10 +65,14 @@ pub enum ExportError {
         source: SolidError,
     },
     /// A cut is too wide for a part.
-    #[error("the {part} cannot be cut with a kerf of {kerf} mm: {source}; give a narrower kerf")]
+    #[error(
+        "{contour} of the {part} cannot be cut with a kerf of {kerf} mm: {source}; give a narrower kerf"
+    )]
     Kerf {
         /// Name of the part.
         part: String,
+        /// The contour: an outline, or a hole with its size.
+        contour: String,
         /// Width of the cut, mm.
         kerf: f64,
         /// Reason of the geometry.

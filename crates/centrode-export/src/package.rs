@@ -199,7 +199,8 @@ impl<'a> Package<'a> {
         Ok(())
     }
 
-    /// Offers the cutting file of a part: its drawing with the layers that the options name.
+    /// Offers the cutting file of a part: its drawing with the layers that the options name, its contours moved for the width of
+    /// the cut.
     ///
     /// # Errors
     /// [`ExportError`] where it cannot be made or written.
@@ -208,14 +209,33 @@ impl<'a> Package<'a> {
         part: &str,
         make: impl Fn(Curves) -> Result<Drawing, ExportError>,
     ) -> Result<(), ExportError> {
-        let (layers, kerf, tolerance) = (self.options.layers, self.kerf, self.tolerance());
+        self.contour(part, self.kerf, make)
+    }
+
+    /// Offers the contour of a part for a lathe, as a cutting file of a cut without width.
+    pub(crate) fn turning(
+        &mut self,
+        part: &str,
+        make: impl Fn(Curves) -> Result<Drawing, ExportError>,
+    ) -> Result<(), ExportError> {
+        self.contour(part, 0.0, make)
+    }
+
+    fn contour(
+        &mut self,
+        part: &str,
+        kerf: f64,
+        make: impl Fn(Curves) -> Result<Drawing, ExportError>,
+    ) -> Result<(), ExportError> {
+        let (layers, tolerance) = (self.options.layers, self.tolerance());
         let uncut = Cell::new(None);
         self.drawing(part, |curves| {
             let mut drawing = cutting::file(make(curves)?, layers);
             if kerf > 0.0 {
                 let found = cutting::along_the_cut(&mut drawing, kerf, tolerance.scaled(PATH));
-                let named = |source| ExportError::Kerf {
+                let named = |(contour, source)| ExportError::Kerf {
                     part: part.to_owned(),
+                    contour,
                     kerf,
                     source,
                 };
@@ -400,6 +420,7 @@ impl<'a> Package<'a> {
     /// cannot be written.
     pub fn finish(mut self) -> Result<Bundle, ExportError> {
         self.bind()?;
+        self.bundle.has_note(CUTTING);
         if !self.uncut.is_empty() {
             let notes = cutting::notes(self.kerf, &self.uncut);
             self.file(CUTTING, notes.into_bytes())?;

@@ -19,6 +19,8 @@ use crate::stage::{Stage, destination, put};
 pub struct Bundle {
     files: Vec<(String, Vec<u8>)>,
     solids: Vec<(String, Solid)>,
+    /// Names of notes on these files that an earlier export may have written.
+    notes: Vec<&'static str>,
 }
 
 /// Reason why a bundle could not be built or written.
@@ -142,6 +144,7 @@ impl Bundle {
         let files: Vec<(&str, &[u8])> = files.collect();
         let mut written = write_all(&files, directory)?;
         written.remove(0);
+        self.remove_old_notes(directory)?;
         Ok(written)
     }
 

@@ -54,7 +54,8 @@ fn date<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     }
     Ok(match Written::deserialize(from)? {
         Written::Text(text) => text,
-        Written::Date(date) => date.to_string(),
+        Written::Date(date) if date.date.is_some() => date.to_string(),
+        Written::Date(_) => return Err(serde::de::Error::custom("must be a date or text")),
     })
 }
 

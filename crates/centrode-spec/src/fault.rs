@@ -137,6 +137,7 @@ impl DesignError {
 fn in_words(keys: &[String]) -> String {
     match keys {
         [] => String::new(),
+        [key] if !key.contains('.') => format!("; {key} belongs above the first table"),
         [one, two, three, _, ..] => {
             format!("; elsewhere there is {one}, {two}, {three} and others")
         }

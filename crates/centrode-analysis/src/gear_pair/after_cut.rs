@@ -18,17 +18,21 @@ pub(super) fn check(pair: &GearPair, report: &mut Report) {
         return;
     }
     let mm = |length: f64| Unit::Millimetre.with_unit(length);
+    let too_wide = |contour: String| {
+        let message = format!("a cut of {} is too wide for {contour}", mm(kerf));
+        Finding::new("kerf-too-wide", Severity::Error, message).remedy(remedy("kerf-too-wide"))
+    };
+    for member in Member::ALL {
+        let bore = pair.gear(member).body().bore;
+        if bore > 0.0 && bore <= kerf {
+            let contour = format!("the bore of the {} gear, {}", member.name(), mm(bore));
+            too_wide(contour).add_to(report);
+        }
+    }
     let cut = match pair.after_cut() {
         Ok(cut) => cut,
         Err((member, error)) => {
-            let message = format!(
-                "the path of a cut of {} around the {} gear cannot be determined: {error}",
-                mm(kerf),
-                member.name(),
-            );
-            Finding::new("kerf-too-wide", Severity::Error, message)
-                .remedy(remedy("kerf-too-wide"))
-                .add_to(report);
+            too_wide(format!("the {} gear: {error}", member.name())).add_to(report);
             return;
         }
     };

@@ -324,7 +324,7 @@ fn figures_that_are_not_there_are_told_at_their_goal() {
         ("rocker.travel", "there is no figure"),
         (
             "clearance(crank, rod)",
-            "over: must be \"minimum\" for the figure clearance",
+            "must be \"minimum\" for the figure clearance",
         ),
     ] {
         let text =

@@ -52,7 +52,7 @@ pub(crate) fn add(
 ) -> Result<(), ExportError> {
     for pieces in all.iter().filter(|pieces| pieces.standard.is_none()) {
         let (part, name) = (Drawn(&pieces.part), &*pieces.part.name);
-        package.cutting(name, |_| Ok(part.drawing()))?;
+        package.turning(name, |_| Ok(part.drawing()))?;
         let (options, tolerance) = (package.options(), package.tolerance());
         let (supplement, count) = (package.design(), pieces.pieces.len());
         package.sheets(name, || {

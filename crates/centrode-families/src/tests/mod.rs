@@ -8,6 +8,7 @@ mod disc;
 mod quick;
 mod response;
 mod rooms;
+mod searches;
 
 /// Folders of the templates and schemas.
 const FOLDERS: [&str; 3] = [

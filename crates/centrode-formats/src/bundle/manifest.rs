@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Bundle, BundleError};
+use super::{Bundle, BundleError, failed};
 use crate::hash::hex;
 
 /// Hidden file with one line per written file: the SHA-256 of its contents, two spaces and its name.
@@ -13,6 +13,25 @@ pub(super) const MANIFEST: &str = ".centrode-files";
 const LISTED: usize = 5;
 
 impl Bundle {
+    /// Names a note on the files of this bundle. If the bundle does not contain it, an export removes that of an earlier export.
+    pub fn has_note(&mut self, name: &'static str) {
+        self.notes.push(name);
+    }
+
+    /// Removes notes of earlier exports that do not belong to the files of this bundle.
+    pub(super) fn remove_old_notes(&self, folder: &Path) -> Result<(), BundleError> {
+        let written = fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
+        for name in &self.notes {
+            let path = folder.join(name);
+            let line = fs::read(&path).map(|bytes| format!("{}  {name}", hex(&bytes)));
+            let is_ours = line.is_ok_and(|line| written.lines().any(|known| known == line));
+            if is_ours && !self.files.iter().any(|(own, _)| own == name) {
+                fs::remove_file(&path).map_err(failed("remove", &path))?;
+            }
+        }
+        Ok(())
+    }
+
     /// The manifest of a folder after this bundle is written there.
     ///
     /// It also lists the present versions of files that the old manifest lists: if the program is killed while it renames files,

@@ -133,6 +133,9 @@ impl Outline {
             -offset
         };
         let chain = self.shifted(distance, tolerance);
+        if chain.is_empty() {
+            return Err(LoopError::Everywhere);
+        }
         let segments: Vec<Segment> = chain.iter().map(|shifted| shifted.segment).collect();
         let kept = without_loops(&segments, is_counter_clockwise, tolerance)?;
         // Where the cutter is larger than the whole outline, the path runs backwards all round.
@@ -461,6 +464,11 @@ mod tests {
         assert!((wide.path.area() - slot(0.1).area()).abs() < 1e-12);
         assert!((wide.remaining.area() - slot(0.5).area()).abs() < 1e-12);
         assert!(slot(0.5).cutter_path(-0.6, fine()).is_err());
+        let hole = Outline::circle(p(1.0, 2.0), 3.0);
+        for radius in [3.0, 3.5] {
+            let refused = hole.cutter_path(-radius, fine()).expect_err("too wide");
+            assert_eq!(refused, LoopError::Everywhere);
+        }
     }
 
     #[test]

@@ -167,7 +167,7 @@ impl Export {
 /// A kind of file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum File {
-    /// Cutting files of each part and of the assembly
+    /// Cutting files of the parts, and a drawing of the assembly
     Dxf,
     /// Cutting files as SVG pictures
     Svg,

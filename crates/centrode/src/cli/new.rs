@@ -18,6 +18,10 @@ pub(crate) fn run(command: &New, out: &mut impl Write) -> Result<Status, Failure
     let text = text.ok_or_else(|| Failure::Usage(format!("unknown design {name:?}")))?;
     match &command.output {
         None => out.write_all(text.as_bytes())?,
+        Some(path) if path.exists() => {
+            let message = format!("{} exists: choose another name", path.display());
+            return Err(Failure::Usage(message));
+        }
         Some(path) => {
             write_new_file(path, text.as_bytes())?;
             writeln!(out, "{}", path.display())?;
