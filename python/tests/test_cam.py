@@ -192,6 +192,6 @@ def test_forks_that_cannot_be_are_refused():
     with pytest.raises(ct.CamError):
         fork.cam(far, base_radius=22)
     turning = [ct.cam.rise(span=3, swing=0.2), ct.cam.return_(span=2 * math.pi - 3, swing=0.2)]
-    with pytest.raises(ct.DesignError, match="lifts"):
+    with pytest.raises(ct.DesignError, match="must have lift, not swing"):
         fork.cam(turning, base_radius=22)
     assert math.isnan(fork.swing(50.0))

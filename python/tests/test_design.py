@@ -129,7 +129,7 @@ def test_design_errors_say_where(tmp_path, old, new, kind, key, line, column):
 def test_huge_binary_and_missing_files(tmp_path):
     path = tmp_path / "pair.toml"
     path.write_text("# " + "x" * 10_000_000)
-    with pytest.raises(ct.DesignError, match="at most"):
+    with pytest.raises(ct.DesignError, match="the limit for a design file is"):
         ct.load(path)
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ct.DesignError, match="UTF-8"):

@@ -36,13 +36,13 @@ def test_the_chamber_clears_the_tips_by_the_gap():
     entities = [*ezdxf.read(io.StringIO(contents.decode(), newline=None)).modelspace()]
     assert sorted(entity.dxf.layer for entity in entities) == ["HOLE", "PROFILE"]
     (chamber,) = (entity for entity in entities if entity.dxf.layer == "HOLE")
-    path = ezdxf.path.make_path(chamber)
-    points = np.array([(p.x, p.y) for p in path.flattening(1e-5)])
     a = meter.center_distance
-    away = np.minimum(np.hypot(*points.T), np.hypot(points[:, 0] - a, points[:, 1]))
-    tip = max(meter.driver.radii[1], meter.driven.radii[1])
-    assert away.min() == pytest.approx(tip + 0.05, abs=1e-4)
-    assert away.max() == pytest.approx(tip + 0.05, abs=1e-4)
+    radii = {0: meter.driver.radii[1] + 0.05, a: meter.driven.radii[1] + 0.05}
+    vertices = [(complex(x, y), bulge) for x, y, bulge in chamber.get_points("xyb")]
+    for (start, bulge), (end, _) in zip(vertices, vertices[1:] + vertices[:1], strict=True):
+        center = (start + end) / 2 + 1j * (end - start) * (1 - bulge**2) / (4 * bulge)
+        (radius,) = (radius for x, radius in radii.items() if abs(center - x) < 1e-6)
+        assert abs(start - center) == pytest.approx(radius, abs=1e-6)
     solid = meter.solids(parts=["housing"])["housing"]
     assert solid.top - solid.bottom == pytest.approx(20.1)
 

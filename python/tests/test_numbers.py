@@ -100,5 +100,7 @@ def test_no_number_makes_anything_answer_with_nan(machines, value):
 @pytest.mark.parametrize("kind", ["circle", "ellipse"])
 def test_a_size_no_power_of_which_is_a_number_is_refused_by_its_key(kind, module):
     options = {"eccentricity": 0.2} if kind == "ellipse" else {}
-    with pytest.raises(ct.PitchError, match=r"module gives a pitch curve .* mm long; the length must be 1e-50 to 1e50 mm"):
+    with pytest.raises(
+        ct.PitchError, match=r"module gives a pitch curve .* mm long; the length must be 1e-50 to 1e50 mm"
+    ):
         ct.GearPair(getattr(ct.pitch, kind)(module=module, tooth_count=20, **options))

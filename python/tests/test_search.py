@@ -169,7 +169,7 @@ def test_variants_are_the_same_on_any_executor() -> None:
     [
         ({"r13": [1.0]}, 360, "12 control points"),
         ({"nonsense": [1.0]}, 360, "nonsense"),
-        ({"r1": [1.0, 2.0], "r2": [1.0, 2.0, 3.0]}, 360, "r2 has 3 values and r1 2"),
+        ({"r1": [1.0, 2.0], "r2": [1.0, 2.0, 3.0]}, 360, "r2 has 3 values, but r1 has 2"),
         ({"r1": [[1.0]]}, 360, "r1 must be a number or a list"),
         ({"bend": [1.0], "gamma0": [1.0]}, 360, "given twice"),
         ({"r1": [1.0]}, 0, "inputs must be"),

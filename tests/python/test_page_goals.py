@@ -168,7 +168,7 @@ def test_an_error_leaves_nothing_of_the_design_before(browser, tmp_path):
         for value, excess in [("901", 732), ("900", 731)]:
             crank.fill(value)
             crank.press("Enter")
-            expect(page.locator("#findings .no-mechanism")).to_contain_text(f"by -{excess} mm")
+            expect(page.locator("#findings .no-mechanism")).to_contain_text(f"it is -{excess} mm")
             expect(page.locator("#goals")).to_be_empty()
         crank.fill(before)
         crank.press("Enter")

@@ -253,7 +253,9 @@ def test_the_field_tells_of_every_place(page):
     expect(readout).to_contain_text(words)
     x, y = middle(page, "point 12 of the path")
     page.mouse.move(x + 60, y)
-    expect(readout).to_contain_text("not possible, the distance of the path from this axis has several maxima and minima")
+    expect(readout).to_contain_text(
+        "not possible, the distance of the path from this axis has several maxima and minima"
+    )
     expect(page.locator('#field-faults li[data-fault="extremes"]')).to_be_visible()
     painted = "document.querySelector('#stage canvas').toDataURL()"
     by_ratio = page.evaluate(painted)

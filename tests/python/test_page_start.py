@@ -195,7 +195,7 @@ def test_strangers_open_and_make_nothing(served, path, body, headers):
         ({"shipped": "none"}, "made.toml", "no such design"),
         ({"new": "none"}, "made.toml", "no such design"),
         ({"shipped": POINTS.stem}, "made.txt", ".toml"),
-        ({"shipped": POINTS.stem}, "none/made.toml", "cannot make made.toml"),
+        ({"shipped": POINTS.stem}, "none/made.toml", "cannot create made.toml"),
     ],
     ids=["unknown design", "unknown family", "another ending", "no folder"],
 )

@@ -304,12 +304,11 @@ def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_
     assert done.returncode == 2
     assert not (tmp_path / "x.proof").exists()
     told = re.search(
-        r"angle (\S+) rad driver tooth 22 hits driven tooth 21 at \((\S+), (\S+)\) mm "
-        r"within the backlash, "
-        r"(\S+) rad from the contact position of the driven gear pushed forward",
+        r"angle (\S+) rad the driven gear, pushed forward, jumps by (\S+) rad: driver tooth 22 hits driven tooth 21 "
+        r"within the backlash, at \((\S+), (\S+)\) mm",
         done.stderr,
     )
-    phi, x, y, turn = map(float, told.groups())
+    phi, turn, x, y = map(float, told.groups())
     pair, turns = ct.load(design), [k * 5e-5 for k in range(-50, 20)]
     # Before it there is one backlash; after it something stands in its midst, so far from where the gear stood.
     assert len(free(pair, phi - 1e-4, turns)) == 1

@@ -20,6 +20,8 @@ BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "debug" / "centro
 # What a page shows and nobody runs here: it installs, takes minutes, or has tests of its own.
 NOT_RUN = (
     "cargo ",
+    "git clone ",
+    "cd ",
     "pip ",
     "scripts/",
     ".ci/",

@@ -1,6 +1,6 @@
 use crate::{
     Point, Vector,
-    curve::{Arc, PolySegment, Segment, SegmentRange},
+    curve::{Arc, CrossingError, PolySegment, Segment, SegmentRange},
     numeric::{Tolerance, bracketed_minimum},
     region::{CORNER, LoopError, Outline, Position, without_loops},
 };
@@ -126,6 +126,17 @@ impl Outline {
     /// # Errors
     /// [`LoopError`] if the cutter fits nowhere, or if the loops of its path cannot be determined.
     pub fn cutter_path(&self, offset: f64, tolerance: Tolerance) -> Result<CutterPath, LoopError> {
+        match self.path_at(offset, tolerance) {
+            // A gap exactly as wide as the cutter: a hair wider, the cutter does not enter it.
+            Err(LoopError::Unresolved {
+                cause: CrossingError::Overlap { .. },
+                ..
+            }) => self.path_at(offset + (10.0 * tolerance.mm()).copysign(offset), tolerance),
+            found => found,
+        }
+    }
+
+    fn path_at(&self, offset: f64, tolerance: Tolerance) -> Result<CutterPath, LoopError> {
         let is_counter_clockwise = self.area() > 0.0;
         let distance = if is_counter_clockwise {
             offset
@@ -410,6 +421,9 @@ mod tests {
         };
         let open = mouth(1.1).cutter_path(0.5, fine()).expect("a path");
         assert_eq!(open.uncut.len(), 4);
+        // A mouth exactly as wide as the cutter stays shut, too.
+        let exact = mouth(1.0).cutter_path(0.5, fine()).expect("a path");
+        assert_eq!(exact.uncut.len(), 1);
         let shut = mouth(0.9).cutter_path(0.5, fine()).expect("a path");
         let [pocket] = shut.uncut[..] else {
             panic!("{:?}", shut.uncut);
