@@ -186,7 +186,7 @@ pub(crate) enum File {
     Csv,
     /// URDF simulator model, with its solids and motion
     Urdf,
-    /// MuJoCo model with one convex contact body per tooth, its solids, its motion and a script
+    /// Simulator model with one convex contact body per tooth, its solids, its motion and a script
     Mjcf,
     /// Report: every figure and finding
     Json,
