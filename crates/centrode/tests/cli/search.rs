@@ -415,6 +415,11 @@ fn catches_interrupt(id: u32) -> bool {
 /// Output of a command that is interrupted as Ctrl-C does, a while after it listens.
 #[cfg(target_os = "linux")]
 pub(crate) fn interrupted(words: &[&str]) -> std::process::Output {
+    ended_by("-INT", words)
+}
+
+#[cfg(target_os = "linux")]
+fn ended_by(signal: &str, words: &[&str]) -> std::process::Output {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
@@ -432,7 +437,7 @@ pub(crate) fn interrupted(words: &[&str]) -> std::process::Output {
     }
     std::thread::sleep(Duration::from_millis(200));
     let sent = Command::new("kill")
-        .args(["-INT", &id.to_string()])
+        .args([signal, &id.to_string()])
         .status();
     assert!(sent.expect("kill is there").success());
     child.wait_with_output().expect("ends")
@@ -440,24 +445,26 @@ pub(crate) fn interrupted(words: &[&str]) -> std::process::Output {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
+fn ctrl_c_and_the_system_end_a_search_that_keeps_the_best_so_far() {
     let folder = tempfile::tempdir().expect("a place to write");
     let to = folder.path().join("best.toml").display().to_string();
     let published = shipped("feeder-2022.toml");
     let words = ["optimise", &published, "--method", "de", "-o", &to];
     let endless = ["--evaluations", "1000000000000"];
-    let ended = interrupted(&[&words[..], &endless].concat());
-    let stated = text(&ended.stdout);
-    assert_eq!(
-        ended.status.code(),
-        Some(1),
-        "{stated}{}",
-        text(&ended.stderr)
-    );
-    assert!(
-        stated.contains("; stopped") && stated.contains("infeasible"),
-        "{stated}"
-    );
+    for signal in ["-INT", "-TERM"] {
+        let ended = ended_by(signal, &[&words[..], &endless].concat());
+        let stated = text(&ended.stdout);
+        assert_eq!(
+            ended.status.code(),
+            Some(1),
+            "{stated}{}",
+            text(&ended.stderr)
+        );
+        assert!(
+            stated.contains("; stopped") && stated.contains("infeasible"),
+            "{signal}: {stated}"
+        );
+    }
     // The best found is better than the start, a design, and a search to go on with.
     let json = centrode(&["check", &to, "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");

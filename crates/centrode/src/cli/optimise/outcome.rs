@@ -58,6 +58,10 @@ impl<'a> Outcome<'a> {
                 share: (to - before) / (high - low),
             }
         });
+        // Constraints of the search are no goals of the file.
+        let mut before = before;
+        let others = problem.goals(&start).unwrap_or_default();
+        before.extend(others.into_iter().filter(|goal| goal.number == 0));
         Self {
             ended,
             seconds,
