@@ -40,8 +40,8 @@ impl DesignFile {
         Ok((file, family))
     }
 
-    /// Mistakes of a design file, ten at most. To find the next one, a wrong word is replaced by the nearest known word, and any
-    /// other wrong entry is removed.
+    /// Mistakes of a design file, ten at most. To find the next one, a wrong word or key is replaced by the nearest known one, and
+    /// any other wrong entry is removed.
     #[must_use]
     pub fn mistakes<F: AsRef<DesignFamily>>(bytes: &[u8], families: &[F]) -> Vec<DesignError> {
         let mut text = String::from_utf8_lossy(bytes).into_owned();
@@ -69,9 +69,17 @@ impl DesignFile {
                 DesignFault::UnknownWord { near, .. } => near.clone(),
                 _ => None,
             };
+            let key = match &error.fault {
+                DesignFault::UnknownKey { near, .. } => near.clone(),
+                _ => None,
+            };
             found.push(error);
-            match (line, word) {
+            match (line, word.or(key.clone())) {
                 (None, _) => break,
+                (Some([written, _]), Some(near)) if key.is_some() => {
+                    let start = text[written.clone()].rfind('.').map_or(0, |dot| dot + 1);
+                    text.replace_range(written.start + start..written.end, &near);
+                }
                 (Some([_, value]), Some(word)) => text.replace_range(value, &format!("{word:?}")),
                 (Some([key, value]), None) => {
                     let blank: String = text[key.start..value.end]

@@ -20,7 +20,10 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
     let Made {
         mechanism,
         mut left_out,
-    } = Made::new(&text).map_err(|error| source.blame(error))?;
+    } = Made::new(&text).map_err(|error| {
+        // Where the file cannot be read, all its mistakes are listed.
+        source.design().err().unwrap_or_else(|| source.blame(error))
+    })?;
     // Figures and remedies need the design as written, with its details.
     if (command.figures || command.remedy)
         && let Some(left_out) = left_out.take()

@@ -294,3 +294,26 @@ fn axes_nearer_than_their_pins_are_named_with_the_key() {
         }
     }
 }
+
+#[test]
+fn a_check_lists_every_wrong_key_of_a_file() {
+    let wrong = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\nexcentricity = 0.3\nmodule = 2\ntooth_count = 20\n\
+                 [driver]\nbores = 6\n[cut]\nkerff = 0.1\n";
+    for command in [&["check", "-"][..], &["export", "-", "--to", "unused"]] {
+        let done = crate::fed(command, wrong.as_bytes());
+        assert_eq!(done.status.code(), Some(2));
+        let message = text(&done.stderr);
+        let listed: Vec<&str> = message
+            .lines()
+            .filter(|l| l.starts_with("error: "))
+            .collect();
+        let keys = ["pitch.excentricity", "driver.bores", "cut.kerff"];
+        assert_eq!(listed.len(), keys.len(), "{message}");
+        for (line, key) in listed.iter().zip(keys) {
+            assert!(
+                line.contains(&format!("error: {key}: unknown key")),
+                "{line}"
+            );
+        }
+    }
+}
