@@ -5,7 +5,7 @@
 //! 1. Polygons: [`steps`] (longest chords within a tolerance), [`untangle`] and [`flatten`].
 //! 2. Arcs: [`smooth_run`] (an outline between its corners), [`biarc`], [`arc_plan`], [`arc_chains`] and [`arcs`];
 //!    [`polygon_arcs`] for the arcs of a polygon.
-//! 3. [`cubics`] and [`offset`], which do not depend on the others.
+//! 3. [`cubics`] and [`offset`], which do not depend on the others; [`cutter_path`] cuts the loops off an offset.
 //!
 //! Uses `numeric`, `curve` and `region`.
 
@@ -14,6 +14,7 @@ mod arc_plan;
 mod arcs;
 mod biarc;
 mod cubics;
+mod cutter_path;
 mod flatten;
 mod offset;
 mod polygon_arcs;
@@ -21,5 +22,5 @@ mod smooth_run;
 mod steps;
 mod untangle;
 
+pub use cutter_path::{CutterPath, UncutCorner};
 pub use flatten::Sample;
-pub use offset::{CutterPath, UncutCorner};
