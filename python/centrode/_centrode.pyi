@@ -88,6 +88,7 @@ __all__ = [
 _Count: TypeAlias = SupportsIndex
 _Ratio: TypeAlias = Sequence[_Count]
 _Real: TypeAlias = float | SupportsFloat
+_Depth: TypeAlias = Literal["motion", "made", "whole"]
 _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
@@ -497,7 +498,7 @@ class Mechanism:
         progress: Callable[[int, float, float], object] | None = None,
     ) -> Optimised[Self]: ...
     def response(
-        self, parameter: str, values: Sequence[float] | NDArray[float64], *, whole: bool = False
+        self, parameter: str, values: Sequence[float] | NDArray[float64], *, depth: _Depth = "motion"
     ) -> dict[str, NDArray[float64]]: ...
     def files(
         self,

@@ -1,6 +1,7 @@
 //! Words of design files and calls, and what each represents.
 
 use crate::error::{Answer, Raised};
+use centrode::family::Depth;
 use centrode_export::Layers;
 use centrode_formats::Purpose;
 use centrode_formats::dxf::{Curves, Version};
@@ -126,7 +127,7 @@ macro_rules! own_words {
 }
 
 own_words!(
-    Aim, Curves, Layers, Projection, Purpose, SheetSize, SplitKind, Strategy
+    Aim, Curves, Depth, Layers, Projection, Purpose, SheetSize, SplitKind, Strategy
 );
 
 impl Word for Version {

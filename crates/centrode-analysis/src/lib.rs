@@ -37,7 +37,8 @@ pub use feeder::{
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{
-    MAX_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, pitch_overlap, remedies,
+    MAX_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, check_made,
+    check_planned, pitch_overlap, remedies,
 };
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;

@@ -58,6 +58,15 @@ impl Response {
         })
     }
 
+    /// Whether the design has goals.
+    #[must_use]
+    pub fn has_goals(&self) -> bool {
+        self.reports
+            .iter()
+            .flatten()
+            .any(|report| !report.goals.is_empty())
+    }
+
     /// The figures of the goals, then all other figures by name.
     #[must_use]
     pub fn answers(&self) -> Vec<Answer> {

@@ -1,14 +1,15 @@
 use super::contact::contact_curves;
 use super::handles::handles;
-use super::{Limit, Mechanism, PartName, Resolved};
+use super::{Depth, Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
-    Contact, PairRemedy, Report, check, check_contact, pitch_overlap, remedies,
+    Contact, PairRemedy, Report, check, check_contact, check_made, check_planned, pitch_overlap,
+    remedies,
 };
 use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, gear_pair, linked};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::design::{Addendum, GearPairDesign};
-use centrode_gear::{GearPair, GearPairError};
+use centrode_gear::{GearPair, GearPairError, PlannedPair};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::LinkedMachine;
 use centrode_spec::{Design, MechanismError};
@@ -61,16 +62,25 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
 
 impl Mechanism for GearPair {
     fn design(&self) -> &dyn Design {
-        self.design()
+        PlannedPair::design(self)
     }
 
     fn definition(&self) -> String {
         let (driver, driven) = self.mean_ratio();
-        format!("{}; mean ratio {driver}:{driven}", self.definition())
+        let definition = PlannedPair::definition(self);
+        format!("{definition}; mean ratio {driver}:{driven}")
     }
 
     fn check(&self) -> Report {
         check(self)
+    }
+
+    fn check_motion(&self) -> Report {
+        check_planned(self)
+    }
+
+    fn check_made(&self) -> Report {
+        check_made(self)
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
@@ -115,7 +125,7 @@ impl Mechanism for GearPair {
         let mut links = picture.links.iter();
         if let Some(link) = links.position(|link| link.name == picture.motion.input_name) {
             let length = self.driver().pitch_length();
-            picture.handles = handles(&self.design().pitch, length, link);
+            picture.handles = handles(&PlannedPair::design(self).pitch, length, link);
         }
         picture.contacts = vec![gear_pair::contacts(self)];
         picture
@@ -126,7 +136,7 @@ impl Mechanism for GearPair {
     }
 
     fn accuracy(&self) -> f64 {
-        self.accuracy()
+        PlannedPair::accuracy(self)
     }
 
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
@@ -148,5 +158,15 @@ impl Resolved for GearPair {
 
     fn resolve(design: &GearPairDesign) -> Result<Self, MechanismError> {
         Self::resolve(design).map_err(|error| error.blamed(design))
+    }
+
+    fn report(design: &GearPairDesign, depth: Depth) -> Result<Report, MechanismError> {
+        let planned = PlannedPair::new(design).map_err(|error| error.blamed(design))?;
+        if depth == Depth::Motion {
+            return Ok(check_planned(&planned));
+        }
+        let pair = planned.cut().map_err(|error| error.blamed(design))?;
+        let mechanism: &dyn Mechanism = &pair;
+        Ok(mechanism.report(depth))
     }
 }

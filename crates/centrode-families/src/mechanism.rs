@@ -25,8 +25,13 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Checks everything.
     fn check(&self) -> Report;
 
-    /// Checks the motion alone: goals, figures and findings without any tooth or cam, about ten times faster.
+    /// Checks the motion alone: goals, figures and findings without any tooth or cam, at least ten times faster.
     fn check_motion(&self) -> Report {
+        self.check_made()
+    }
+
+    /// Checks the motion and the parts as they are made: teeth, too, but not their contact.
+    fn check_made(&self) -> Report {
         self.check()
     }
 
@@ -122,15 +127,23 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError>;
 }
 
-/// Depth of a check.
+/// Depth of a check. A deeper report has all figures of a shallower one, with the same values, and more.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Depth {
-    /// Depth of [`Mechanism::check_motion`]: all goals.
+    /// Depth of [`Mechanism::check_motion`]: all goals. Parts need not be made.
     #[default]
     Motion,
+    /// Depth of [`Mechanism::check_made`]: parts and teeth as they are made.
+    Made,
     /// Depth of [`Mechanism::check`].
     Whole,
 }
+
+centrode_spec::words!(Depth {
+    Motion = "motion",
+    Made = "made",
+    Whole = "whole",
+});
 
 impl dyn Mechanism {
     /// Checks to a depth.
@@ -138,6 +151,7 @@ impl dyn Mechanism {
     pub fn report(&self, depth: Depth) -> Report {
         match depth {
             Depth::Motion => self.check_motion(),
+            Depth::Made => self.check_made(),
             Depth::Whole => self.check(),
         }
     }

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use centrode_analysis::Response;
+use centrode_analysis::{Report, Response};
 use centrode_spec::{
     self, Design, DesignError, DesignFamily, DesignFault, DesignFile, DesignSpec, MechanismError,
 };
@@ -25,6 +25,15 @@ pub trait Resolved: Mechanism + Sized {
     /// # Errors
     /// [`MechanismError`] with the key at fault.
     fn resolve(design: &Self::Design) -> Result<Self, MechanismError>;
+
+    /// Report of a design to a depth.
+    ///
+    /// # Errors
+    /// [`MechanismError`] with the key at fault, if the design gives nothing to check to this depth.
+    fn report(design: &Self::Design, depth: Depth) -> Result<Report, MechanismError> {
+        let mechanism: &dyn Mechanism = &Self::resolve(design)?;
+        Ok(mechanism.report(depth))
+    }
 
     /// Search problem that starts from a design.
     ///
@@ -76,6 +85,7 @@ pub struct Family {
     /// Parts whose files can be requested by name; empty if the design names its parts.
     pub parts: &'static [PartName],
     resolve: Resolve,
+    report: fn(&dyn Design, Depth) -> Result<Report, MechanismError>,
     problem: SetProblem,
     widen: fn(&dyn Design) -> Result<Widening, WideningError>,
 }
@@ -89,6 +99,7 @@ impl Family {
             noun: M::NOUN,
             parts: M::PARTS,
             resolve: |design| Ok(Arc::new(M::resolve(own(design)?)?)),
+            report: |design, depth| M::report(own(design)?, depth),
             problem: |design| match own(design) {
                 Ok(design) => M::problem(design),
                 Err(_) => Err(NotSearched::Family),
@@ -103,6 +114,15 @@ impl Family {
     /// [`MechanismError`] with the key at fault: `family` if the design is of another family.
     pub fn resolve(&self, design: &dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError> {
         (self.resolve)(design)
+    }
+
+    /// Report of a design to a depth. Parts that this depth does not check need not exist: a pair whose teeth cannot be cut has a
+    /// report of its motion.
+    ///
+    /// # Errors
+    /// [`MechanismError`] with the key at fault.
+    pub fn report(&self, design: &dyn Design, depth: Depth) -> Result<Report, MechanismError> {
+        (self.report)(design, depth)
     }
 
     /// Search problem that starts from a design. Its goals are reached by designs that pass the check.
@@ -126,6 +146,26 @@ impl Family {
         (self.widen)(design)
     }
 
+    /// Response to the first depth that is enough; to the whole depth if none is.
+    ///
+    /// # Errors
+    /// [`DesignError`] if the key is not that of a number of the design.
+    pub fn response_until(
+        &self,
+        design: &dyn Design,
+        key: &str,
+        values: &[f64],
+        is_enough: impl Fn(&Response) -> bool,
+    ) -> Result<Response, DesignError> {
+        for depth in [Depth::Motion, Depth::Made] {
+            let response = self.response(design, key, values, depth)?;
+            if is_enough(&response) {
+                return Ok(response);
+            }
+        }
+        self.response(design, key, values, Depth::Whole)
+    }
+
     /// Response of the figures of a design to one of its numbers, at the values given in the file's unit.
     ///
     /// # Errors
@@ -137,9 +177,7 @@ impl Family {
         values: &[f64],
         depth: Depth,
     ) -> Result<Response, DesignError> {
-        Response::evaluate(design, key, values, |design| {
-            Ok(self.resolve(design)?.report(depth))
-        })
+        Response::evaluate(design, key, values, |design| self.report(design, depth))
     }
 }
 

@@ -171,7 +171,8 @@ impl Fits<'_> {
     /// Layout of a design's teeth, fitted, if it has one.
     fn layout(&self, design: &GearPairDesign) -> Option<Layout> {
         let teeth = parameters(design, self.module);
-        layout(self.rolling, self.counts, &teeth).ok()
+        let layout = layout(self.rolling, self.counts, &teeth).ok()?;
+        Some(layout.fitted(self.rolling, self.counts, &teeth))
     }
 
     /// The minimum contact ratio from a flank to the next, plus a small share of the mean; minus infinity without teeth.

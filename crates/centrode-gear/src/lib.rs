@@ -40,7 +40,7 @@ pub use intermittent::{
 };
 pub use limits::{Limits, PitchPoint};
 pub use over_pins::{OverPins, Pin, PinFault};
-pub use pair::{CutPair, Gear, GearPair, GearPairError, Housing};
+pub use pair::{CutPair, Gear, GearPair, GearPairError, Housing, PlannedPair};
 pub use profile::{ProfileError, Role, Tooth, ToothSide};
 pub use rolling::{CurvatureRange, Frame, Member, PitchContact, Rolling, RollingError};
 pub use teeth::{TeethError, TeethParameters};

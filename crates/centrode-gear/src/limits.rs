@@ -3,7 +3,7 @@ use centrode_geometry::{Extreme, checkpoint, maximum};
 use super::{
     design::GearPairDesign,
     flank::{Flank, Side},
-    pair::{GearPair, parameters},
+    pair::{GearPair, PlannedPair, parameters},
     pitch::{Circle, PitchSpec},
     rolling::{CurvatureRange, Member, PitchContact},
     tool::{Tool, ToolKind},
@@ -24,9 +24,8 @@ pub struct Limits {
     /// plus 1/R for a shaper of pitch radius R. rho is the radius of the rounding, d the distance from the pitch point to where
     /// the flank ends, along the line of action (from the equation of Euler and Savary).
     pub largest_module_of_fillets: f64,
-    /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
-    /// no thinner at its tip than requested.
-    pub largest_addendum: f64,
+    /// Height, mm, up to which every flank is regular wherever the teeth fall: minimum radius x sin^2 alpha.
+    regular_height: f64,
     /// Range of curvature of the driver's and of the driven gear's pitch curve.
     pub ranges: [CurvatureRange; 2],
 }
@@ -59,7 +58,7 @@ impl PitchPoint {
     }
 }
 
-impl GearPair {
+impl PlannedPair {
     /// Radii, curvatures and pressure angles where the pitch curves touch at a driver angle.
     #[must_use]
     pub fn pitch_point(&self, phi: f64) -> PitchPoint {
@@ -95,7 +94,7 @@ impl GearPair {
         }
     }
 
-    /// Module and addendum allowed by these pitch curves and this tool.
+    /// Curvatures of the pitch curves, and the modules that they allow with this tool.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let teeth = self.teeth();
@@ -129,14 +128,18 @@ impl GearPair {
                 let concave = (-ranges[member].minimum.1).max(0.0);
                 fillet_module(&teeth.tools[member], self.module(), shift, concave)
             }),
-            largest_addendum: self.widest_height(regular),
+            regular_height: regular,
             ranges,
         }
     }
+}
 
-    /// The maximum height, up to `limit`, at which no tooth is thinner than required.
-    fn widest_height(&self, limit: f64) -> f64 {
-        let mut height = limit;
+impl GearPair {
+    /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
+    /// no thinner at its tip than requested.
+    #[must_use]
+    pub fn largest_addendum(&self) -> f64 {
+        let mut height = self.limits().regular_height;
         for member in [Member::Driver, Member::Driven] {
             let (pattern, tool) = (self.patterns.of(member), self.operating_tool(member));
             // A tooth that is the image of another has the same width.

@@ -114,13 +114,26 @@ pub(crate) struct Layout {
     pub(crate) phase: f64,
     pub(crate) backlash: f64,
     pub(crate) congruent: bool,
+    /// Width of the spaces of driver and driven gear on the pitch curves, mm.
+    spaces: [f64; 2],
 }
 
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Counts {
     pub(crate) driver: u32,
     pub(crate) driven: u32,
 }
 
+impl Counts {
+    pub(crate) fn of(&self, member: Member) -> u32 {
+        match member {
+            Member::Driver => self.driver,
+            Member::Driven => self.driven,
+        }
+    }
+}
+
+/// Lays out the teeth; those with a fitted addendum are as high as their tool makes them.
 pub(crate) fn layout(
     rolling: &Rolling,
     counts: &Counts,
@@ -162,10 +175,6 @@ pub(crate) fn layout(
         middle(member, k) + side.sign() * (0.5 * width(member) - thinning)
     };
     let space = |member: Member| pitch - width(member) + 2.0 * thinning;
-    let count = |member: Member| match member {
-        Member::Driver => counts.driver,
-        Member::Driven => counts.driven,
-    };
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
         let tool = parameters.tool(member);
         // A tip that is fitted stays above the root of its mate.
@@ -202,31 +211,46 @@ pub(crate) fn layout(
             corner,
             active_depth: corner.end,
         };
-        Ok((0..count(member))
+        Ok((0..counts.of(member))
             .map(|k| ToothPlan {
                 leading: flank(k, Side::Leading),
                 trailing: flank(k, Side::Trailing),
             })
             .collect())
     };
-    let mut layout = Layout {
+    Ok(Layout {
         driver: plan(Member::Driver)?,
         driven: plan(Member::Driven)?,
         phase,
         backlash,
         congruent,
-    };
-    if parameters.addendum == Addendum::Fitted {
+        spaces: Member::ALL.map(space),
+    })
+}
+
+impl Layout {
+    /// The layout with its addenda trimmed, if the parameters require it.
+    pub(crate) fn fitted(
+        mut self,
+        rolling: &Rolling,
+        counts: &Counts,
+        parameters: &TeethParameters,
+    ) -> Self {
+        if parameters.addendum == Addendum::Full {
+            return self;
+        }
+        let pitch = rolling.pitch_length(Member::Driver) / f64::from(counts.driver);
         let fitting = Fitting {
             rolling,
             tools: &parameters.tools,
             minimum_tip_width: parameters.minimum_tip_width,
         };
-        let patterns = Patterns::new(rolling.symmetry(), counts, &layout, pitch);
-        let all = [&mut layout.driver[..], &mut layout.driven[..]];
-        fitting.fit(all, &patterns, pitch, space);
+        let patterns = Patterns::new(rolling.symmetry(), counts, &self, pitch);
+        let all = [&mut self.driver[..], &mut self.driven[..]];
+        let spaces = self.spaces;
+        fitting.fit(all, &patterns, pitch, |member| spaces[member as usize]);
+        self
     }
-    Ok(layout)
 }
 
 /// Length that turns normal backlash into the maximum angular backlash over the cycle, mm: the minimum harmonic mean

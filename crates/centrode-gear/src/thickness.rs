@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use centrode_kinematics::machine::StandardTable;
 
 use super::design::BodySpec;
-use super::{GearPair, Member};
+use super::{Member, PlannedPair};
 
 /// Tolerances of tooth thickness, um, by series, for reference diameters up to a limit, mm.
 static TOLERANCES: LazyLock<StandardTable<11>> =
@@ -25,7 +25,7 @@ pub struct ThicknessDeviations {
     pub series: Option<u32>,
 }
 
-impl GearPair {
+impl PlannedPair {
     /// Deviations of the thickness of a gear's teeth from those designed: as the design states them, or from zero down by a
     /// tolerance of DIN 3967, whose deviation series h leaves the backlash as designed. The tolerance series is 18 + the accuracy
     /// class, 26 for class 8, by the circle as long as the pitch curve. `None` for a class of another system, a module below
@@ -57,8 +57,7 @@ impl GearPair {
     }
 
     fn usual_deviations(&self, member: Member) -> Option<ThicknessDeviations> {
-        let gear = self.gear(member);
-        let class: u32 = gear.body().accuracy_class().parse().ok()?;
+        let class: u32 = self.body(member).accuracy_class().parse().ok()?;
         let series = class.checked_add(ABOVE_CLASS)?;
         let tolerance = tolerance(self.reference_diameter(member), series)?;
         (self.module() >= MIN_MODULE).then_some(ThicknessDeviations {

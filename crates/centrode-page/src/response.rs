@@ -1,7 +1,7 @@
 //! Response of the figures of a design to one of its numbers, for the page.
 
-use centrode_analysis::{Goal, Unit};
-use centrode_families::{Depth, FAMILIES};
+use centrode_analysis::{Goal, Response, Unit};
+use centrode_families::FAMILIES;
 use serde::{Deserialize, Serialize};
 
 /// Number of values at which the design is checked.
@@ -53,9 +53,13 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
+    // Without goals, figures that change are shown.
+    let shows = |found: &Response| {
+        found.has_goals() || found.answers().iter().any(|answer| moves(&answer.figures))
+    };
     let response = file
         .family()
-        .response(file.design(), &ask.key, &values, Depth::Motion);
+        .response_until(file.design(), &ask.key, &values, shows);
     let response = response.map_err(|error| error.message())?;
     let given = &response.values;
     // For a key of whole numbers several values may round to the same number.

@@ -144,7 +144,7 @@ impl Mechanism {
         py: Python<'py>,
         parameter: &str,
         values: Vec<f64>,
-        whole: bool,
+        depth: Depth,
     ) -> Answer<Bound<'py, PyDict>> {
         let family = *self.family()?;
         if values.is_empty() {
@@ -154,7 +154,6 @@ impl Mechanism {
             finite("values", value)?;
         }
         let key = self.0.design().key_of(parameter);
-        let depth = if whole { Depth::Whole } else { Depth::Motion };
         let found = self.ask(py, move |machine| {
             family.response(machine.design(), &key, &values, depth)
         })??;

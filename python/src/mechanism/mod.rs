@@ -294,7 +294,8 @@ impl Mechanism {
     ///     parameter: Key in the design file, such as "arm.tip_distance", or name of a parameter, such as "r1", "crank"
     ///         or "pivot_x".
     ///     values: Values of the parameter in the unit of the design file: mm, degrees.
-    ///     whole: Whether to compute also the teeth and the cam, which takes about ten times as long.
+    ///     depth: Depth of the check at every value: "motion" (goals and figures that need no teeth), "made" (also teeth as
+    ///         made) or "whole" (everything that `check` reports).
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -303,15 +304,15 @@ impl Mechanism {
     /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
     /// >>> np.degrees(feeder.response("frame", [129.5, 130])["swing"]).round(3).tolist()
     /// [179.691, 180.225]
-    #[pyo3(signature = (parameter, values, *, whole=false))]
+    #[pyo3(signature = (parameter, values, *, depth="motion"))]
     fn response<'py>(
         &self,
         py: Python<'py>,
         parameter: &str,
         values: Vec<f64>,
-        whole: bool,
+        depth: &str,
     ) -> Answer<Bound<'py, PyDict>> {
-        self.answers(py, parameter, values, whole)
+        self.answers(py, parameter, values, Word::of("depth", depth)?)
     }
 
     /// The contents of the files of the machine, by file name, without writing them; `export` writes them.

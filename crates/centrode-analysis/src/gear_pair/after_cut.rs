@@ -1,4 +1,4 @@
-use centrode_gear::{GearPair, Member};
+use centrode_gear::{CutPair, GearPair, Member};
 
 use super::{mesh, remedy::remedy};
 use crate::{Contact, Finding, Report, Severity, Unit};
@@ -11,11 +11,12 @@ const FIGURES: [(&str, &str); 4] = [
     ("fillet_clearance_min", "cut_fillet_clearance_min"),
 ];
 
-/// Checks what remains of both gears after a cut as wide as `cut.kerf`: corners that it does not reach, and the mesh with them.
-pub(super) fn check(pair: &GearPair, report: &mut Report) {
+/// Checks what remains of both gears after a cut as wide as `cut.kerf`: corners that it does not reach. The pair as cut; `None` if
+/// the design has no kerf or the cut is too wide.
+pub(super) fn check(pair: &GearPair, report: &mut Report) -> Option<CutPair> {
     let kerf = pair.design().cut.kerf;
     if kerf == 0.0 {
-        return;
+        return None;
     }
     let mm = |length: f64| Unit::Millimetre.with_unit(length);
     let too_wide = |contour: String| {
@@ -33,7 +34,7 @@ pub(super) fn check(pair: &GearPair, report: &mut Report) {
         Ok(cut) => cut,
         Err((member, error)) => {
             too_wide(format!("the {} gear: {error}", member.name())).add_to(report);
-            return;
+            return None;
         }
     };
     for (member, uncut) in Member::ALL.into_iter().zip(&cut.uncut) {
@@ -58,6 +59,11 @@ pub(super) fn check(pair: &GearPair, report: &mut Report) {
             .remedy(remedy("uncut-corner"))
             .add_to(report);
     }
+    Some(cut)
+}
+
+/// Checks the mesh of a pair as cut, after the mesh of the pair as designed.
+pub(super) fn mesh_as_cut(cut: &CutPair, report: &mut Report) {
     let is_whole = cut.uncut.iter().all(Vec::is_empty);
     let meshed = (!is_whole).then(|| {
         let mut meshed = Report::default();

@@ -80,7 +80,7 @@ pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts>
     let meshes = [Mesh::Sun, Mesh::Planet];
     let touching = meshes.map(|mesh| touching(mechanism, teeth, mesh));
     // Rounding must stay invisible: it depends on the module, or without teeth on 2 % of the centre distance.
-    let size = teeth.map_or(0.02 * mechanism.center_distance(), GearPair::module);
+    let size = teeth.map_or(0.02 * mechanism.center_distance(), |pair| pair.module());
     // A rounded input moves the whole mesh about the sun.
     let length = ROUNDING * size;
     let units = [0.5 * length / mechanism.center_distance(), length];

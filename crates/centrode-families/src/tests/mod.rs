@@ -4,6 +4,7 @@ use centrode_spec::DesignSpec as _;
 
 use super::*;
 
+mod depth;
 mod disc;
 mod quick;
 mod response;

@@ -72,7 +72,7 @@ fn teeth_are_asked_only_for_a_whole_answer() {
 
 #[test]
 fn other_families_answer_too() {
-    let of = |key: &str, values: &[f64]| response("gear-pair", key, values, Depth::Motion);
+    let of = |key: &str, values: &[f64]| response("gear-pair", key, values, Depth::Whole);
     let answers = of("teeth.backlash", &[0.02, 0.06]);
     let answers = answers.expect("a number").answers();
     let backlash = answers.iter().find(|a| a.name == "normal_backlash_min");

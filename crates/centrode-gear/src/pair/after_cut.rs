@@ -21,7 +21,7 @@ impl GearPair {
     #[must_use]
     pub fn with_kerf(&self, kerf: f64) -> Self {
         let mut pair = self.clone();
-        pair.design.cut.kerf = kerf;
+        pair.planned.design.cut.kerf = kerf;
         pair
     }
 
@@ -37,8 +37,8 @@ impl GearPair {
             pair: self.clone(),
             uncut: [Vec::new(), Vec::new()],
         };
-        let radius = 0.5 * self.design.cut.kerf;
-        let Ok(tolerance) = Tolerance::new(PATH * self.module) else {
+        let radius = 0.5 * self.design().cut.kerf;
+        let Ok(tolerance) = Tolerance::new(PATH * self.module()) else {
             return Ok(cut);
         };
         if radius == 0.0 {

@@ -22,7 +22,7 @@ impl GearPair {
     /// Housing with the gap and the wall of the design; `None` if the design has no gap.
     #[must_use]
     pub fn housing(&self) -> Option<Housing> {
-        let spec = self.design.housing;
+        let spec = self.design().housing;
         let gap = spec.gap?;
         let gears = Member::ALL.map(|member| self.gear(member));
         let radii = gears.map(|gear| gear.radii().1 + gap);

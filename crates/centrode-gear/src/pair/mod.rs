@@ -4,54 +4,42 @@ mod error;
 mod follow;
 mod gear;
 mod housing;
+mod planned;
 
-use std::f64::consts::{PI, TAU};
+use std::ops::Deref;
 use std::sync::Arc;
 
-use centrode_geometry::{Recent, Tolerance};
-
-use centrode_spec::DrawingSpec;
+use centrode_geometry::Recent;
 
 use super::{
-    design::{BodySpec, Fit, GearPairDesign, GearSpec, Phase, TipShortening, ToolSpec},
-    fit::Fits,
+    design::{BodySpec, GearPairDesign, Phase},
     flank::{Flank, Side},
-    generation::Generation,
     pattern::Patterns,
-    rolling::{Member, Rolling},
-    teeth::{Counts, TeethParameters, layout},
-    tool::{Tool, ToolKind},
+    rolling::Member,
 };
 
 pub use after_cut::CutPair;
-use cutting::Cutting;
 pub use error::GearPairError;
-use follow::follow;
 pub use gear::Gear;
 pub use housing::Housing;
+pub use planned::PlannedPair;
+pub(super) use planned::parameters;
 
-/// Maximum distance of a stored outline from the exact curve, as a share of the module. A coarser one comes near the
-/// errors that the contact analysis reports, a finer one makes the outlines larger.
-const OUTLINE_TOLERANCE: f64 = 1e-10;
-
-/// A non-circular gear pair, resolved: exact pitch curves, finished teeth.
-///
-/// The driver is centred at the origin, the driven gear at (a, 0). At the driver polar angle phi the
-/// driver has turned by -phi and the driven gear by +`driven_angle(phi)`.
+/// A non-circular gear pair, resolved: the [`PlannedPair`] to which it dereferences, with finished teeth.
 #[derive(Clone, Debug)]
 pub struct GearPair {
-    design: GearPairDesign,
-    definition: String,
-    rolling: Arc<Rolling>,
-    generation: Generation,
-    module: f64,
-    teeth: TeethParameters,
-    phase: f64,
-    backlash: f64,
-    congruent: bool,
+    planned: PlannedPair,
     pub(super) patterns: Patterns,
     driver: Gear,
     driven: Gear,
+}
+
+impl Deref for GearPair {
+    type Target = PlannedPair;
+
+    fn deref(&self) -> &PlannedPair {
+        &self.planned
+    }
 }
 
 impl GearPair {
@@ -71,101 +59,7 @@ impl GearPair {
     /// # Errors
     /// [`GearPairError`] naming the rule broken and its numbers.
     pub fn resolve(design: &GearPairDesign) -> Result<Self, GearPairError> {
-        design.validate()?;
-        let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
-        let (definition, reference) = Self::reference(design)?;
-        let (generation, rolling) = Generation::new(design, reference)?;
-        let definition = generation.named(definition);
-        let tools = &*generation.rolling;
-        let driver = design
-            .driver_tooth_count()
-            .ok_or(GearPairError::NoToothCount)?;
-        let driven = u64::from(driver) * u64::from(ratio.0);
-        if !driven.is_multiple_of(u64::from(ratio.1)) || driven / u64::from(ratio.1) < 3 {
-            return Err(GearPairError::DrivenTeeth { driver, ratio });
-        }
-        let counts = Counts {
-            driver,
-            driven: u32::try_from(driven / u64::from(ratio.1))
-                .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
-        };
-        let module = tools.pitch_length(Member::Driver) / (PI * f64::from(driver));
-        design.teeth.thickness_within(0.5 * module)?;
-        follow(tools, driver, module)?;
-        let fits = Fits {
-            rolling: tools,
-            counts: &counts,
-            module,
-        };
-        let tolerance =
-            Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
-        let make = |settled: &GearPairDesign| -> Result<_, GearPairError> {
-            let teeth = parameters(settled, module);
-            let plan = layout(tools, &counts, &teeth)?;
-            let patterns = Patterns::new(tools.symmetry(), &counts, &plan, PI * module);
-            let cutting = Cutting {
-                rolling: &rolling,
-                generation: &generation,
-                tools: &teeth.tools,
-                plan: &plan,
-                patterns: &patterns,
-                bodies: [&design.driver, &design.driven],
-                tolerance,
-            };
-            let gears = cutting.gears()?;
-            Ok((teeth, plan, patterns, gears))
-        };
-        let cut = |design: &GearPairDesign| {
-            let (.., gears) = make(design).ok()?;
-            Some(gears.map(|gear| gear.teeth().to_vec()))
-        };
-        let settled = fits.settled(&generation.written(design), &cut);
-        let (teeth, plan, patterns, [driver, driven]) = make(&settled)?;
-        Ok(Self {
-            design: design.clone(),
-            definition,
-            rolling,
-            generation,
-            module,
-            teeth,
-            phase: plan.phase,
-            backlash: plan.backlash,
-            congruent: plan.congruent,
-            patterns,
-            driver,
-            driven,
-        })
-    }
-
-    /// The driver's pitch curve in words, and both pitch curves rolling, without any teeth.
-    ///
-    /// # Errors
-    /// [`GearPairError`] where the pitch curves do not roll.
-    pub fn roll(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
-        let (definition, reference) = Self::reference(design)?;
-        let (generation, rolling) = Generation::new(design, reference)?;
-        Ok((generation.named(definition), Arc::unwrap_or_clone(rolling)))
-    }
-
-    /// The driver's pitch curve in words, and the pitch curves on which the tools roll.
-    fn reference(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
-        let pitch = design.pitch.resolve()?;
-        let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
-        if let Some(implied) = pitch.implied_ratio
-            && implied != ratio
-        {
-            return Err(GearPairError::MeanRatio {
-                written: ratio,
-                implied,
-            });
-        }
-        let rolling = Rolling::new(pitch.curve, ratio)?
-            .with_symmetry(pitch.symmetry)
-            .with_sampled_corners(pitch.corners);
-        if let Some((turn, angle)) = rolling.corner() {
-            return Err(GearPairError::Corner { turn, angle });
-        }
-        Ok((pitch.definition, rolling))
+        PlannedPair::new(design)?.cut()
     }
 
     /// Makes the pair with another body of the driver.
@@ -175,7 +69,7 @@ impl GearPair {
     pub fn with_driver_body(&self, body: &BodySpec) -> Result<Self, GearPairError> {
         body.validate().map_err(|e| e.inside("driver"))?;
         let mut pair = self.clone();
-        pair.design.driver.body = body.clone();
+        pair.planned.design.driver.body = body.clone();
         pair.driver.body = body.clone();
         pair.driver.clears_bore()?;
         Ok(pair)
@@ -187,187 +81,11 @@ impl GearPair {
     /// [`GearPairError`] where too little of a tooth is left.
     pub fn thinned(&self, by: f64) -> Result<Self, GearPairError> {
         let mut design = self.settled_design();
-        design.teeth.phase = Phase::Pitches(self.phase);
+        design.teeth.phase = Phase::Pitches(self.phase());
         design.teeth.backlash_angle = None;
         // Each gear takes half of the backlash, and that on two flanks.
-        design.teeth.backlash = self.backlash + 2.0 * by * self.pressure_angle().cos();
+        design.teeth.backlash = self.backlash() + 2.0 * by * self.pressure_angle().cos();
         Self::resolve(&design)
-    }
-
-    /// Design of the pair with the chosen values of its free parameters (`teeth.fit`) written into it: it gives the same pair.
-    #[must_use]
-    pub fn settled_design(&self) -> GearPairDesign {
-        let mut design = self.design.clone();
-        design.teeth.addendum = self.teeth.addendum;
-        for fit in std::mem::take(&mut design.teeth.fit) {
-            match fit {
-                Fit::Addendum => {}
-                Fit::ThicknessSplit => design.teeth.thickness_split = self.teeth.thickness_split,
-                Fit::Phase => design.teeth.phase = self.teeth.phase,
-                Fit::PressureAngle => design.set_pressure_angle(self.teeth.pressure_angle()),
-            }
-        }
-        design
-    }
-
-    /// Design of the pair, as written.
-    #[must_use]
-    pub fn design(&self) -> &GearPairDesign {
-        &self.design
-    }
-
-    /// Name, as written in the design.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.design.name
-    }
-
-    /// Title, as written in the design.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.design.title
-    }
-
-    /// The driver's pitch curve in words.
-    #[must_use]
-    pub fn definition(&self) -> &str {
-        &self.definition
-    }
-
-    /// The rolling pitch curves.
-    #[must_use]
-    pub fn rolling(&self) -> &Rolling {
-        &self.rolling
-    }
-
-    /// The rolling pitch curves, to be shared by everything that moves by them.
-    pub fn shared_rolling(&self) -> Arc<Rolling> {
-        Arc::clone(&self.rolling)
-    }
-
-    /// Distance between the shafts, mm.
-    #[must_use]
-    pub fn center_distance(&self) -> f64 {
-        self.rolling.center_distance()
-    }
-
-    /// Module, mm: pitch length / (pi x tooth count).
-    #[must_use]
-    pub fn module(&self) -> f64 {
-        self.module
-    }
-
-    /// Maximum distance of the stored outlines from the exact ones, mm: no finer tolerance is meaningful.
-    #[must_use]
-    pub fn accuracy(&self) -> f64 {
-        OUTLINE_TOLERANCE * self.module
-    }
-
-    /// Turns of driver : turns of driven.
-    #[must_use]
-    pub fn mean_ratio(&self) -> (u32, u32) {
-        self.rolling.mean_ratio()
-    }
-
-    /// Pressure angle of the pair, rad: between the common normal of the teeth and the pitch curves. It is that of the tool,
-    /// except for circular gears with x1 + x2 not zero, whose pitch circles are the operating circles.
-    #[must_use]
-    pub fn pressure_angle(&self) -> f64 {
-        self.generation.pressure_angle(self.teeth.pressure_angle())
-    }
-
-    /// Profile shift coefficient of a member.
-    #[must_use]
-    pub fn shift(&self, member: Member) -> f64 {
-        self.generation.shifts[member as usize]
-    }
-
-    /// Tip shortening coefficient k: every addendum is longer by k modules, shorter if k is negative.
-    #[must_use]
-    pub fn tip_shortening(&self) -> f64 {
-        self.generation.tip_shortening
-    }
-
-    /// Diameter of the circle as long as the pitch curve on which a member is generated, mm: m z.
-    #[must_use]
-    pub fn reference_diameter(&self, member: Member) -> f64 {
-        self.generation.rolling.pitch_length(member) / PI
-    }
-
-    /// Height of the tips of full teeth above a member's pitch curve, mm.
-    #[must_use]
-    pub fn tip_height(&self, member: Member) -> f64 {
-        let teeth = &self.teeth;
-        let addendum = teeth.tool(member).addendum + teeth.profile_shift(member) + teeth.tip_change;
-        addendum + self.generation.rise(member)
-    }
-
-    /// Depth of the roots of full teeth below a member's pitch curve, mm.
-    #[must_use]
-    pub fn root_depth(&self, member: Member) -> f64 {
-        let teeth = &self.teeth;
-        teeth.tool(member).dedendum - teeth.profile_shift(member) - self.generation.rise(member)
-    }
-
-    pub(super) fn generation(&self) -> &Generation {
-        &self.generation
-    }
-
-    /// The tool that makes the same flanks of a member on the pitch curves of the pair.
-    pub(super) fn operating_tool(&self, member: Member) -> Tool {
-        self.generation.operating_tool(self.teeth.tool(member))
-    }
-
-    /// Tool, addendum, backlash and the like, resolved to mm and rad.
-    #[must_use]
-    pub fn teeth(&self) -> &TeethParameters {
-        &self.teeth
-    }
-
-    /// Pitches from phi = 0 to the middle of driver tooth 0.
-    #[must_use]
-    pub fn phase(&self) -> f64 {
-        self.phase
-    }
-
-    /// Normal backlash, mm.
-    #[must_use]
-    pub fn backlash(&self) -> f64 {
-        self.backlash
-    }
-
-    /// Whether both gears are the same part.
-    #[must_use]
-    pub fn congruent(&self) -> bool {
-        self.congruent
-    }
-
-    /// Driven angle at a driver angle, rad.
-    #[must_use]
-    pub fn driven_angle(&self, phi: f64) -> f64 {
-        self.rolling.driven_angle(phi)
-    }
-
-    /// Driven turn per driver turn at a driver angle.
-    #[must_use]
-    pub fn ratio(&self, phi: f64) -> f64 {
-        self.rolling.ratio(phi)
-    }
-
-    /// Change of the ratio per radian of driver angle.
-    #[must_use]
-    pub fn ratio_slope(&self, phi: f64) -> f64 {
-        self.rolling.ratio_slope(phi)
-    }
-
-    /// Entries and layout of the drawing sheets.
-    #[must_use]
-    pub fn drawing(&self) -> &DrawingSpec {
-        &self.design.drawing
-    }
-
-    pub(crate) fn written_pin_diameter(&self) -> Option<f64> {
-        self.design.teeth.pin_diameter
     }
 
     /// The gear that is turned.
@@ -402,13 +120,13 @@ impl GearPair {
         };
         let (low, high) = made.active?;
         let flank = Flank {
-            rolling: &self.rolling,
+            rolling: self.rolling(),
             member,
             tool: &self.operating_tool(member),
             side,
             crossing: made.crossing,
         };
-        let radius = |arc: f64| flank.point(self.rolling.parameter(arc)).coords.norm();
+        let radius = |arc: f64| flank.point(self.rolling().parameter(arc)).coords.norm();
         // The leading flank rises with the arc length of roll, the trailing one falls.
         Some(match side {
             Side::Leading => [radius(low), radius(high)],
@@ -421,60 +139,5 @@ impl GearPair {
     #[must_use]
     pub fn repeats(&self, member: Member) -> u32 {
         self.patterns.of(member).repeats()
-    }
-
-    /// Driver angle of a whole cycle, after which both gears are as they were, rad.
-    #[must_use]
-    pub fn cycle(&self) -> f64 {
-        TAU * f64::from(self.mean_ratio().0)
-    }
-}
-
-pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
-    let tool = |member: Member, gear: &GearSpec| {
-        let spec = design.tool_of(member);
-        let kind = match spec {
-            ToolSpec::Rack(_) => ToolKind::Rack,
-            ToolSpec::Shaper(shaper) => ToolKind::Shaper {
-                radius: 0.5 * module * f64::from(shaper.tooth_count),
-            },
-        };
-        let [addendum, dedendum, tip_radius] = match spec {
-            ToolSpec::Rack(t) => [
-                t.addendum_coefficient,
-                t.dedendum_coefficient,
-                t.tip_radius_coefficient,
-            ],
-            ToolSpec::Shaper(t) => [
-                t.addendum_coefficient,
-                t.dedendum_coefficient,
-                t.tip_radius_coefficient,
-            ],
-        };
-        Tool {
-            pressure_angle: spec.pressure_angle(),
-            addendum: gear.addendum.unwrap_or(addendum) * module,
-            dedendum: gear.dedendum.unwrap_or(dedendum) * module,
-            tip_radius: tip_radius * module,
-            kind,
-        }
-    };
-    TeethParameters {
-        tools: [
-            tool(Member::Driver, &design.driver),
-            tool(Member::Driven, &design.driven),
-        ],
-        profile_shifts: design.shifts().map(|x| x * module),
-        tip_change: match design.teeth.tip_shortening {
-            // Without a sum of shifts no change is needed for the clearance.
-            TipShortening::KeepClearance | TipShortening::None => 0.0,
-            TipShortening::By(coefficient) => coefficient * module,
-        },
-        addendum: design.teeth.addendum,
-        phase: design.teeth.phase,
-        backlash: design.teeth.backlash,
-        backlash_angle: design.teeth.backlash_angle,
-        thickness_split: design.teeth.thickness_split,
-        minimum_tip_width: design.teeth.minimum_tip_width_coefficient * module,
     }
 }

@@ -31,7 +31,7 @@ pub use train::{ArmOnCarrier, Train, TrainJet};
 pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
 pub use tray::TrayBody;
 
-use centrode_gear::{FlankCount, GearPair, GearPairError, Member, Rolling};
+use centrode_gear::{FlankCount, GearPair, GearPairError, Member, PlannedPair, Rolling};
 use centrode_spec::{MechanismError, SpecError};
 use design::ThreeArmDesign;
 
@@ -101,7 +101,7 @@ impl ThreeArm {
     /// [`ThreeArmError`] with the violated rule and its numbers.
     pub fn resolve(design: &ThreeArmDesign) -> Result<Self, ThreeArmError> {
         design.validate()?;
-        let (definition, rolling) = GearPair::roll(&design.pair())?;
+        let (definition, rolling) = PlannedPair::roll(&design.pair())?;
         let train = Train::new(design, Arc::new(rolling));
         let mut mechanism = Self {
             design: design.clone(),

@@ -7,7 +7,7 @@ use thiserror::Error;
 use self::crank::Crank;
 use super::reversed::{fewest_steps, minimum_convex_radii, table_pair};
 use crate::reverse::{Timing, TimingError};
-use centrode_gear::{GearPair, GearPairError};
+use centrode_gear::{GearPairError, PlannedPair};
 use centrode_machines::machine::{Machine, MachineDesign, MachineError};
 use centrode_spec::degrees;
 use centrode_spec::digits::stated;
@@ -168,7 +168,7 @@ impl GearDrive {
         let enough = NEAR_ENOUGH * (high - low);
         let of_steps = |steps| {
             let table = crank.table(&timing, steps);
-            let (_, rolled) = GearPair::roll(&table_pair(table.clone(), distance))?;
+            let (_, rolled) = PlannedPair::roll(&table_pair(table.clone(), distance))?;
             let miss = crank.miss(&timing, &rolled);
             Ok::<_, GearPairError>((steps, rolled, table, miss))
         };

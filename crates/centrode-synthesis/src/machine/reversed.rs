@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::reverse::{KeepOut, Split, SplitKind, TwoBar, leg};
 use centrode_gear::design::{Addendum, BodySpec, GearPairDesign};
 use centrode_gear::pitch::{PitchSpec, Transmission};
-use centrode_gear::{CurvatureRange, GearPair, GearPairError, Rolling};
+use centrode_gear::{CurvatureRange, GearPairError, PlannedPair, Rolling};
 use centrode_kinematics::machine::preferred_size;
 use centrode_machines::machine::{
     GearRole, MachineBodySpec, MachineCircleSpec, MachineCopiesSpec, MachineCornerSpec,
@@ -150,7 +150,7 @@ impl ReversedMachine {
     ) -> Result<Self, ReversedMachineError> {
         let tables = split.tables(steps);
         let pairs = pairs(chain, split, tables);
-        let rolled = pairs.iter().map(|(_, pair)| Ok(GearPair::roll(pair)?.1));
+        let rolled = pairs.iter().map(|(_, pair)| Ok(PlannedPair::roll(pair)?.1));
         let rolled = rolled.collect::<Result<Vec<Rolling>, GearPairError>>()?;
         let train = Train::new(split, &rolled);
         let ranges: Vec<_> = rolled.iter().map(Rolling::curvature_ranges).collect();

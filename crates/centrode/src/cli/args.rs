@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::cli::shipped::SHIPPED;
 use crate::export::Layers;
-use crate::family::{FAMILIES, PartName};
+use crate::family::{Depth, FAMILIES, PartName};
 use crate::formats::{Format, Purpose};
 use crate::geometry::Tolerance;
 use centrode_spec::{CutSpec, Projection, SheetSize};
@@ -370,9 +370,10 @@ pub(crate) struct Response {
     /// Goals or figures to print, separated by commas; default: the goals
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     pub(crate) of: Vec<String>,
-    /// Run the whole check at every value, including teeth and cams, for --csv and --json
-    #[arg(long)]
-    pub(crate) whole: bool,
+    /// Depth of the check at every value: motion alone, also teeth as made, or everything; default: the first with the figures
+    /// of --of, or with goals or a figure that changes
+    #[arg(long, value_parser = PossibleValuesParser::new(Depth::NAMES.map(|(name, _)| name)))]
+    pub(crate) depth: Option<String>,
     /// Write every figure at every value to a CSV file, angles in radians
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,

@@ -37,23 +37,14 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     let values: Vec<f64> = (0..command.count).map(value).collect();
     let progress = Progress::new(1);
     progress.step("checking every value");
-    let find = |depth| {
-        let response = file.family().response(file.design(), &key, &values, depth);
-        let response = response.map_err(|error| Failure::Usage(error.message()))?;
-        let answers = response.answers();
-        Ok::<_, Failure>((response, answers))
+    let (family, design) = (file.family(), file.design());
+    let response = match command.depth.as_deref().and_then(Depth::named) {
+        Some(depth) => family.response(design, &key, &values, depth),
+        None => family.response_until(design, &key, &values, |found| is_enough(command, found)),
     };
-    let mut found = find(if command.whole {
-        Depth::Whole
-    } else {
-        Depth::Motion
-    })?;
-    let stated = |name: &String| found.1.iter().any(|answer| is_named(answer, name));
-    if !command.of.iter().all(stated) {
-        found = find(Depth::Whole)?;
-    }
+    let response = response.map_err(|error| Failure::Usage(error.message()))?;
+    let answers = response.answers();
     drop(progress);
-    let (response, answers) = found;
     if let Some(path) = &command.csv {
         write_csv(path, &response, &answers)?;
     }
@@ -71,6 +62,18 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     Ok(Status::Good)
 }
 
+/// Whether a response has the requested figures; default: goals, or a figure that changes.
+fn is_enough(command: &Response, response: &Found) -> bool {
+    let answers = response.answers();
+    match command.of.is_empty() {
+        true => response.has_goals() || answers.iter().any(changes),
+        false => {
+            let has = |name: &String| answers.iter().any(|answer| is_named(answer, name));
+            command.of.iter().all(has)
+        }
+    }
+}
+
 /// Requested figures; default: all goals, or, for a family without goals, the figures that change.
 fn requested<'a>(
     command: &Response,
@@ -78,13 +81,11 @@ fn requested<'a>(
     answers: &'a [Answer],
 ) -> Result<Vec<&'a Answer>, Failure> {
     if command.of.is_empty() {
-        let mut goals = response.reports.iter().flatten().flat_map(|r| &r.goals);
-        let any = goals.next().is_some();
         let is_goal = |answer: &Answer| {
             let mut reports = response.reports.iter().flatten();
             reports.any(|r| r.goals.iter().any(|goal| goal.name == answer.name))
         };
-        let required = |answer: &&Answer| match any {
+        let required = |answer: &&Answer| match response.has_goals() {
             true => is_goal(answer),
             false => changes(answer),
         };

@@ -6,7 +6,7 @@ use super::{drawn, published, published_path};
 use crate::reverse::{
     PossibleAxis, RequiredPath, ReversedMachine, Split, SplitError, SplitKind, TwoBar,
 };
-use centrode_gear::{GearPair, Member};
+use centrode_gear::{Member, PlannedPair};
 use centrode_kinematics::transmission::Transmission as _;
 
 #[test]
@@ -199,7 +199,7 @@ fn rolled_radius(made: &ReversedMachine) -> f64 {
     const COUNT: usize = 20_000;
     let mut sharpest = 0.0_f64;
     for pair in made.design.pairs.values() {
-        let (_, rolling) = GearPair::roll(pair).expect("pitch curves");
+        let (_, rolling) = PlannedPair::roll(pair).expect("pitch curves");
         let period = rolling.curve().period();
         for member in [Member::Driver, Member::Driven] {
             let at = |i: usize| {
