@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::{JsonNumber, Unit, figure};
 use centrode_geometry::COMPUTED;
+use centrode_spec::goals::RequiredRange;
 
 /// Goal of a mechanism: a figure and the range required of it.
 ///
@@ -83,6 +84,18 @@ impl Goal {
             scale,
             ..self
         }
+    }
+
+    /// Goal with a required range as its file gives it, in the shown unit of the goal; without a scale, the size of the required
+    /// figures.
+    pub(crate) fn required(self, range: RequiredRange, scale: Option<f64>) -> Self {
+        let kept = |shown: f64| shown / self.unit.factor();
+        let required = range.ends().map(|end| end.map(kept));
+        let ends = required.into_iter().flatten();
+        let size = ends.fold(0.0, |size: f64, end| size.max(end.abs()));
+        let usual = if size > 0.0 { size } else { kept(1.0) };
+        let scale = scale.map_or(usual, kept);
+        self.range(required, scale)
     }
 
     /// The goals of a paper, numbered in the order of the list. A different number in the paper is stored in `paper`.

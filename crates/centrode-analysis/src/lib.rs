@@ -32,13 +32,13 @@ pub use contact::{
     Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,
 };
 pub use feeder::{
-    Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
-    check_strokes, feeder_goals,
+    Attainable, FIGURES as FEEDER_FIGURES, FeederForces, FeederForcesError, SixBarTolerances,
+    SwingSpread, check_feeder, check_strokes, feeder_goals, six_bar_goals,
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{
-    MAX_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, check_made,
-    check_planned, pitch_overlap, remedies,
+    FIGURES as PAIR_FIGURES, MAX_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check,
+    check_contact, check_made, check_planned, pitch_overlap, remedies,
 };
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;
@@ -51,11 +51,11 @@ pub use progress::Progress;
 pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Table};
 pub use response::{Answer, Response};
 pub use severity::Severity;
-pub use shaft::{check_moving_box, check_shaft};
+pub use shaft::{FIGURES as SHAFT_FIGURES, check_moving_box, check_shaft};
 pub use side_by_side::prepare_threads;
 pub use three_arm::{
-    ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,
-    arm_clearance_course, between_arms, carrier_turn, check_arms, check_three_arm,
-    check_three_arm_teeth, three_arm_goals, three_arm_reached,
+    ArmClearance, ArmClearanceCourse, ArmClearanceError, FIGURES as THREE_ARM_FIGURES, TrainTeeth,
+    Variants, VariantsError, arm_clearance_course, between_arms, carrier_turn, check_arms,
+    check_three_arm, check_three_arm_teeth, three_arm_goals, three_arm_reached,
 };
 pub use unit::Unit;

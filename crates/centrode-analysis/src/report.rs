@@ -1,6 +1,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use centrode_spec::{FigureGoalSpec, Named};
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 
@@ -236,6 +237,41 @@ impl Report {
     /// Puts the worst findings first, and causes before their consequences.
     pub(crate) fn worst_first(&mut self) {
         severity::worst_first(&mut self.findings);
+    }
+
+    /// The report with the goals of a design for its figures, and an error for each missed goal.
+    ///
+    /// Figures that this depth of the check does not have give goals without a figure. A complete check reports them as errors:
+    /// there a figure is missing only if it cannot be determined.
+    #[must_use]
+    pub fn with_goals(mut self, goals: &Named<FigureGoalSpec>, is_complete: bool) -> Self {
+        if goals.is_empty() {
+            return self;
+        }
+        let before = self.goals.len();
+        for (number, (name, spec)) in (before as u32 + 1..).zip(goals) {
+            let figure = &*spec.figure;
+            let unit = self.unit(figure).unwrap_or(Unit::Number);
+            let title = match &*spec.title {
+                "" => format!("{name}: {figure}"),
+                title => title.to_owned(),
+            };
+            let value = self.values.get(figure).copied();
+            if is_complete && value.is_none() {
+                let message =
+                    format!("goal {number}, {title}: the figure {figure} cannot be determined");
+                Finding::new("goal", Severity::Error, message).add_to(&mut self);
+            }
+            let goal = Goal::new(number, name.clone(), title, unit);
+            self.goals
+                .push(goal.required(spec.range(), spec.scale).with(value));
+        }
+        let added = self.goals.split_off(before);
+        let fixed = std::mem::replace(&mut self.goals, added);
+        self.blame_goals(|_| Missed::default());
+        self.goals.splice(..0, fixed);
+        self.worst_first();
+        self
     }
 
     /// Adds an error for each goal that is missed. `about` gives the position, the remedy and further words for a goal.

@@ -1,5 +1,6 @@
+use super::figure_goals;
 use super::{Limit, Mechanism, Resolved, Widening, WideningError};
-use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
+use centrode_analysis::{FEEDER_FIGURES, FeederForces, Report, check_feeder, check_strokes};
 use centrode_export::linked::picture;
 use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, feeder};
@@ -36,11 +37,11 @@ impl Mechanism for Feeder {
     }
 
     fn check(&self) -> Report {
-        check_feeder(self)
+        check_feeder(self).with_goals(&self.design().figure_goals, true)
     }
 
     fn check_motion(&self) -> Report {
-        check_strokes(self)
+        check_strokes(self).with_goals(&self.design().figure_goals, false)
     }
 
     fn goals_come_first(&self) -> bool {
@@ -48,7 +49,7 @@ impl Mechanism for Feeder {
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
-        (check_feeder(self), torques(self))
+        (Mechanism::check(self), torques(self))
     }
 
     /// The goal bounds the angle of coupler and rocker on both sides: above its minimum, below 180 degrees less that minimum.
@@ -103,6 +104,7 @@ impl Resolved for Feeder {
     const NOUN: &'static str = "a feeder";
 
     fn resolve(design: &FeederDesign) -> Result<Self, MechanismError> {
+        figure_goals::check_names("figure_goals", &design.figure_goals, &[FEEDER_FIGURES])?;
         Ok(Self::resolve(design)?)
     }
 

@@ -1,9 +1,10 @@
 use super::contact::contact_curves;
+use super::figure_goals;
 use super::handles::handles;
 use super::{Depth, Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
-    Contact, PairRemedy, Report, check, check_contact, check_made, check_planned, pitch_overlap,
-    remedies,
+    Contact, PAIR_FIGURES, PairRemedy, Report, check, check_contact, check_made, check_planned,
+    pitch_overlap, remedies,
 };
 use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, gear_pair, linked};
@@ -12,7 +13,9 @@ use centrode_gear::design::{Addendum, GearPairDesign};
 use centrode_gear::{GearPair, GearPairError, PlannedPair};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::LinkedMachine;
+use centrode_spec::goals::check_varied;
 use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use std::sync::Arc;
 
 /// Tolerance of the picture, as a share of the module: a tenth of a pixel if a tooth is drawn as high as a hand.
@@ -72,20 +75,23 @@ impl Mechanism for GearPair {
     }
 
     fn check(&self) -> Report {
-        check(self)
+        check(self).with_goals(&self.design().goals, true)
     }
 
     fn check_motion(&self) -> Report {
-        check_planned(self)
+        check_planned(self).with_goals(&self.design().goals, false)
     }
 
     fn check_made(&self) -> Report {
-        check_made(self)
+        check_made(self).with_goals(&self.design().goals, false)
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let contact = Contact::analyse(self);
-        (check_contact(self, &contact), contact_curves(&contact))
+        (
+            check_contact(self, &contact).with_goals(&self.design().goals, true),
+            contact_curves(&contact),
+        )
     }
 
     fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
@@ -157,16 +163,23 @@ impl Resolved for GearPair {
     ];
 
     fn resolve(design: &GearPairDesign) -> Result<Self, MechanismError> {
+        figure_goals::check_names("goals", &design.goals, &[PAIR_FIGURES])?;
+        check_varied(design, &design.vary, &[])?;
         Self::resolve(design).map_err(|error| error.blamed(design))
     }
 
     fn report(design: &GearPairDesign, depth: Depth) -> Result<Report, MechanismError> {
+        figure_goals::check_names("goals", &design.goals, &[PAIR_FIGURES])?;
         let planned = PlannedPair::new(design).map_err(|error| error.blamed(design))?;
         if depth == Depth::Motion {
-            return Ok(check_planned(&planned));
+            return Ok(check_planned(&planned).with_goals(&design.goals, false));
         }
         let pair = planned.cut().map_err(|error| error.blamed(design))?;
         let mechanism: &dyn Mechanism = &pair;
         Ok(mechanism.report(depth))
+    }
+
+    fn problem(design: &GearPairDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        figure_goals::problem::<Self>(design, design.goals.len(), &design.vary)
     }
 }

@@ -7,6 +7,7 @@
 
 mod contact;
 mod feeder;
+mod figure_goals;
 mod gear_pair;
 mod handles;
 mod internal_fault;

@@ -11,8 +11,7 @@ use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::LinkedMachine;
 use centrode_machines::machine::{DyadKind, Machine, MachineDesign, Over};
 use centrode_spec::{Design, MechanismError};
-use centrode_synthesis::optimise::machine::MachineProblem;
-use centrode_synthesis::optimise::{DesignProblem, NotSearched};
+use centrode_synthesis::optimise::{DesignProblem, NotSearched, VaryProblem};
 use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 use std::sync::Arc;
 
@@ -124,7 +123,7 @@ impl Resolved for Machine {
     }
 
     fn problem(design: &MachineDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
-        Ok(Box::new(MachineProblem::new(design)?))
+        Ok(Box::new(VaryProblem::of_machine(design)?))
     }
 }
 

@@ -1,4 +1,5 @@
 use super::Limit;
+use super::figure_goals::figures;
 use centrode_analysis::{Report, Table};
 use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options};
@@ -50,9 +51,10 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         (self.check(), Vec::new())
     }
 
-    /// Figures that the goals of a design can name, with their extremes over the cycle; empty if the family fixes its goals.
+    /// Figures that the goals of a design can name: those of the check with their values, those along the cycle with their
+    /// extremes.
     fn figures(&self) -> Vec<Table> {
-        Vec::new()
+        figures(&self.check())
     }
 
     /// Changed designs that fix the findings of the check, each with a description of its effect; empty if none is known.

@@ -1,13 +1,16 @@
+use super::figure_goals;
 use super::spiral_shaft::{drawn, in_words, window};
 use super::{Mechanism, Resolved};
-use centrode_analysis::{Report, check_moving_box};
+use centrode_analysis::{Report, SHAFT_FIGURES, check_moving_box};
 use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, shaft};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_groove::{MovingBox, MovingBoxDesign, Scheme};
 use centrode_kinematics::machine::LinkedMachine;
+use centrode_spec::goals::check_varied;
 use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use std::sync::Arc;
 
 impl Mechanism for MovingBox {
@@ -24,7 +27,7 @@ impl Mechanism for MovingBox {
     }
 
     fn check(&self) -> Report {
-        check_moving_box(self)
+        check_moving_box(self).with_goals(&self.design().goals, true)
     }
 
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
@@ -61,6 +64,12 @@ impl Resolved for MovingBox {
     const NOUN: &'static str = "a moving box";
 
     fn resolve(design: &MovingBoxDesign) -> Result<Self, MechanismError> {
+        figure_goals::check_names("goals", &design.goals, &[SHAFT_FIGURES])?;
+        check_varied(design, &design.vary, &[])?;
         Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &MovingBoxDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        figure_goals::problem::<Self>(design, design.goals.len(), &design.vary)
     }
 }

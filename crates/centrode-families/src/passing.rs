@@ -16,13 +16,19 @@ pub(crate) struct PassingProblem {
 }
 
 impl PassingProblem {
-    /// Number of errors that the check finds at a point.
+    /// Number of errors that the check finds at a point, and the misses of its goals as shares of their scales: near the goals
+    /// the sum falls.
     fn errors(&self, point: &[f64]) -> f64 {
         match (self.resolve)(self.inner.design(point).as_ref()) {
             Ok(mechanism) => {
-                let findings = mechanism.check().findings;
-                let errors = findings.iter().filter(|f| f.severity == Severity::Error);
-                errors.count() as f64
+                let report = mechanism.check();
+                let errors = report.findings.iter();
+                let errors = errors.filter(|f| f.severity == Severity::Error).count();
+                let missed = report
+                    .goals
+                    .iter()
+                    .filter_map(|goal| Some(goal.margin? / goal.scale));
+                errors as f64 + missed.map(|margin| (-margin).clamp(0.0, 1.0)).sum::<f64>()
             }
             Err(_) => 1.0,
         }

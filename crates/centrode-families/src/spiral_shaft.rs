@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_analysis::{Report, check_shaft};
+use centrode_analysis::{Report, SHAFT_FIGURES, check_shaft};
 use centrode_export::linked::picture;
 use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, shaft};
@@ -9,8 +9,11 @@ use centrode_geometry::Tolerance;
 use centrode_groove::{ShaftSolid, SpiralShaft, SpiralShaftDesign};
 use centrode_kinematics::machine::LinkedMachine;
 use centrode_kinematics::transmission::MotionJet;
+use centrode_spec::goals::check_varied;
 use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
+use super::figure_goals;
 use super::handles::degrees;
 use super::{Mechanism, Resolved};
 
@@ -27,7 +30,7 @@ impl Mechanism for SpiralShaft {
     }
 
     fn check(&self) -> Report {
-        check_shaft(self)
+        check_shaft(self).with_goals(&self.design().goals, true)
     }
 
     fn curves(&self) -> Vec<Curve> {
@@ -57,7 +60,13 @@ impl Resolved for SpiralShaft {
     const NOUN: &'static str = "a spiral shaft";
 
     fn resolve(design: &SpiralShaftDesign) -> Result<Self, MechanismError> {
+        figure_goals::check_names("goals", &design.goals, &[SHAFT_FIGURES])?;
+        check_varied(design, &design.vary, &[])?;
         Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &SpiralShaftDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        figure_goals::problem::<Self>(design, design.goals.len(), &design.vary)
     }
 }
 

@@ -1,9 +1,10 @@
 use super::contact::contact_curves;
+use super::figure_goals;
 use super::handles::handles;
 use super::{Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
-    Report, TrainTeeth, arm_clearance_course, carrier_turn, check_arms, check_three_arm,
-    check_three_arm_teeth,
+    PAIR_FIGURES, Report, THREE_ARM_FIGURES, TrainTeeth, arm_clearance_course, carrier_turn,
+    check_arms, check_three_arm, check_three_arm_teeth,
 };
 use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, linked, three_arm};
@@ -44,11 +45,11 @@ impl Mechanism for ThreeArm {
     }
 
     fn check(&self) -> Report {
-        check_three_arm(self)
+        check_three_arm(self).with_goals(&self.design().figure_goals, true)
     }
 
     fn check_motion(&self) -> Report {
-        check_arms(self)
+        check_arms(self).with_goals(&self.design().figure_goals, false)
     }
 
     fn goals_come_first(&self) -> bool {
@@ -58,6 +59,7 @@ impl Mechanism for ThreeArm {
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let teeth = TrainTeeth::analyse(self);
         let found = check_three_arm_teeth(self, &teeth);
+        let found = found.with_goals(&self.design().figure_goals, true);
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
     }
 
@@ -135,6 +137,8 @@ impl Resolved for ThreeArm {
     ];
 
     fn resolve(design: &ThreeArmDesign) -> Result<Self, MechanismError> {
+        let figures = [PAIR_FIGURES, THREE_ARM_FIGURES];
+        figure_goals::check_names("figure_goals", &design.figure_goals, &figures)?;
         Ok(Self::resolve(design)?)
     }
 

@@ -4,10 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
+use centrode_spec::goals::check_search;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, design_name, finite, in_range, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
+use centrode_spec::{DesignSpec, DrawingSpec, FigureGoalSpec, Named, SpecError, degrees};
 
 /// A variable-speed spiral shaft as written: the same words in the file, in Rust and in Python.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -56,6 +57,12 @@ pub struct SpiralShaftDesign {
     /// The drawing sheets.
     #[serde(skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
+    /// Goals by name.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub goals: Named<FigureGoalSpec>,
+    /// Numbers that a search may move, by their keys in quotes, each with its minimum and maximum value.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub vary: Named<[f64; 2]>,
 }
 
 /// Size of the groove.
@@ -98,6 +105,8 @@ impl Default for SpiralShaftDesign {
             mill: Mill::default(),
             load: Load::default(),
             drawing: DrawingSpec::default(),
+            goals: Named::new(),
+            vary: Named::new(),
         }
     }
 }
@@ -107,7 +116,7 @@ impl DesignSpec for SpiralShaftDesign {
     const ABOUT: &'static str = "A variable-speed spiral shaft.";
     const TEMPLATE: &'static str = include_str!("../design/spiral_shaft.toml");
     const TABLES: &'static [&'static str] = &[
-        "law", "reversal", "groove", "slider", "body", "mill", "load",
+        "law", "reversal", "groove", "slider", "body", "mill", "load", "goals", "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -148,6 +157,7 @@ impl SpiralShaftDesign {
         mill.map_err(|e| e.inside("mill"))?;
         self.load.validate().map_err(|e| e.inside("load"))?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))?;
+        check_search(&self.goals, &self.vary)?;
         match (self.moved_distance, &self.law) {
             (None, _) => Ok(()),
             (Some(_), SpeedLaw::Sine(sine)) if sine.amplitude == 0.0 => Ok(()),

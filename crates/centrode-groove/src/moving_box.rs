@@ -10,10 +10,11 @@ use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpe
 use centrode_gear::pitch::{Ellipse, PitchSpec};
 use centrode_kinematics::machine::{GuideForce, Keyway};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
+use centrode_spec::goals::check_search;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, design_name, in_range, is_zero, positive, single_line,
 };
-use centrode_spec::{DesignSpec, SpecError};
+use centrode_spec::{DesignSpec, FigureGoalSpec, Named, SpecError};
 
 /// Number of equal parts of a turn in each of which a stroke has few extremes.
 const PARTS: u32 = 16;
@@ -146,6 +147,12 @@ pub struct MovingBoxDesign {
     pub gears: Option<EllipticGears>,
     /// The shaft.
     pub shaft: SpiralShaftDesign,
+    /// Goals by name.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub goals: Named<FigureGoalSpec>,
+    /// Numbers that a search may move, by their keys in quotes, each with its minimum and maximum value.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub vary: Named<[f64; 2]>,
 }
 
 impl Default for MovingBoxDesign {
@@ -156,6 +163,8 @@ impl Default for MovingBoxDesign {
             scheme: Scheme::default(),
             gears: None,
             shaft: SpiralShaftDesign::default(),
+            goals: Named::new(),
+            vary: Named::new(),
         }
     }
 }
@@ -164,7 +173,7 @@ impl DesignSpec for MovingBoxDesign {
     const FAMILY: &'static str = "moving-box";
     const ABOUT: &'static str = "A seedling box moved at a variable speed.";
     const TEMPLATE: &'static str = include_str!("../design/moving_box.toml");
-    const TABLES: &'static [&'static str] = &["gears", "shaft"];
+    const TABLES: &'static [&'static str] = &["gears", "shaft", "goals", "vary"];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]
@@ -193,7 +202,18 @@ impl MovingBoxDesign {
             (_, Some(gears)) => gears.validate().map_err(|e| e.inside("gears"))?,
             _ => {}
         }
-        self.shaft.validate().map_err(|e| e.inside("shaft"))
+        self.shaft.validate().map_err(|e| e.inside("shaft"))?;
+        let of_shaft = [
+            ("shaft.goals", self.shaft.goals.is_empty()),
+            ("shaft.vary", self.shaft.vary.is_empty()),
+        ];
+        if let Some((key, _)) = of_shaft.into_iter().find(|(_, is_empty)| !is_empty) {
+            return broken(
+                key,
+                Rule::Unused("inside the shaft of a moving box: write it without \"shaft.\""),
+            );
+        }
+        check_search(&self.goals, &self.vary)
     }
 
     /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow point.

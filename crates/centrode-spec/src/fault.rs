@@ -101,6 +101,18 @@ impl MechanismError {
         Self { key, fault }
     }
 
+    /// Error of a word at a key that is not among the known words.
+    #[must_use]
+    pub fn unknown_word(key: String, word: &str, known: &[&str]) -> Self {
+        let known: Vec<String> = known.iter().map(|&word| word.to_owned()).collect();
+        let fault = DesignFault::UnknownWord {
+            near: nearest(word, &known),
+            word: word.to_owned(),
+            known,
+        };
+        Self { key, fault }
+    }
+
     /// The key and what is wrong with it.
     #[must_use]
     pub fn message(&self) -> String {

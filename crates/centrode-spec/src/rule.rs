@@ -49,6 +49,18 @@ pub enum Rule {
     /// None of several keys is given, but one is required.
     #[error("is missing: give one of {0}")]
     NeedsOneOf(&'static str),
+    /// Two goals for one figure that no figure can meet together.
+    #[error("contradicts {other}: {figure} cannot be at least {} and at most {}", stated(*minimum), stated(*maximum))]
+    Contradicts {
+        /// Key of the other goal.
+        other: String,
+        /// Figure of both goals, in words.
+        figure: String,
+        /// Minimum that one goal requires.
+        minimum: f64,
+        /// Maximum that the other goal requires.
+        maximum: f64,
+    },
     /// Strokes of another kind than the follower makes.
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),

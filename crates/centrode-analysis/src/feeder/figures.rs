@@ -6,7 +6,7 @@ use crate::unit::Unit::{
 
 /// Figures of a feeder, in the order in which they are shown.
 #[rustfmt::skip]
-pub(crate) const FIGURES: &[FigureGroup] = &[
+pub const FIGURES: &[FigureGroup] = &[
     FigureGroup {
         heading: "Strokes of the effector",
         columns: &["feed", "return", "rest"],

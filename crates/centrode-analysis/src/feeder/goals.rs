@@ -1,54 +1,70 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_kinematics::linkage::SixBar;
 use centrode_machines::feeder::{Feeder, FeederGoals};
 
 use super::Attainable;
 use crate::report::Missed;
 use crate::{Goal, Report, Unit};
 
-/// Every goal with its figure, in the order of their numbers.
+/// The goals that a six-bar alone can meet: swing, minimum transmission angle and quick return.
 #[must_use]
-pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
+pub fn six_bar_goals(six_bar: &SixBar, goals: &FeederGoals) -> [Goal; 3] {
     let FeederGoals {
         swing,
         swing_tolerance,
         transmission_angle,
         quick_return,
-        feed_rate,
-        pushing_time,
-    } = feeder.design().goals;
-    let (six_bar, bar) = (feeder.six_bar(), feeder.six_bar().four_bar());
-    let minimum = |number, name, title, value: f64, required, unit, scale| {
-        Goal::new(number, name, title, unit)
-            .minimum(required, scale)
-            .with(value)
-    };
-    let size = |required: f64| if required > 0.0 { required } else { 1.0 };
-    let mut goals = vec![
+        ..
+    } = *goals;
+    [
         Goal::new(1, "swing", "swing of the effector", Unit::Angle)
             .range(
                 [swing - swing_tolerance, swing + swing_tolerance].map(Some),
                 swing_tolerance,
             )
             .with(six_bar.swing()),
-        minimum(
-            2,
-            "crank-rocker",
-            "Grashof's margin (crank turns)",
-            bar.grashof_margin(),
-            0.0,
-            Unit::Millimetre,
-            bar.lengths()[0],
-        ),
-        minimum(
+        Goal::new(
             3,
             "transmission-angle",
             "minimum transmission angle",
-            bar.minimum_transmission_angle(),
-            transmission_angle,
             Unit::Angle,
-            size(transmission_angle),
-        ),
+        )
+        .minimum(transmission_angle, size(transmission_angle))
+        .with(six_bar.four_bar().minimum_transmission_angle()),
+        Goal::new(
+            5,
+            "quick-return",
+            "crank angle of the feed stroke",
+            Unit::Angle,
+        )
+        .minimum(TAU * quick_return / (1.0 + quick_return), PI)
+        .with(six_bar.extremes().longer_stroke()),
+    ]
+}
+
+/// Scale of a goal with a minimum: its size.
+fn size(required: f64) -> f64 {
+    if required > 0.0 { required } else { 1.0 }
+}
+
+/// Every goal with its figure, in the order of their numbers.
+#[must_use]
+pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
+    let required = &feeder.design().goals;
+    let bar = feeder.six_bar().four_bar();
+    let [swing, transmission_angle, quick_return] = six_bar_goals(feeder.six_bar(), required);
+    let [crank, ..] = bar.lengths();
+    let turns = Goal::new(
+        2,
+        "crank-rocker",
+        "Grashof's margin (crank turns)",
+        Unit::Millimetre,
+    );
+    let mut goals = vec![
+        swing,
+        turns.minimum(0.0, crank).with(bar.grashof_margin()),
+        transmission_angle,
     ];
     let names = [
         ("crank-bounds", "crank within its bounds"),
@@ -64,34 +80,20 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         let goal = goal.range([Some(low), Some(high)], high - low);
         goals.push(goal.with(length));
     }
+    let rate = Goal::new(6, "feed-rate", "cuttings per minute", Unit::PerMinute);
+    let dwell = Goal::new(7, "dwell", "rest of the effector for filling", Unit::Second);
+    let FeederGoals {
+        feed_rate,
+        pushing_time,
+        ..
+    } = *required;
     goals.extend([
-        minimum(
-            5,
-            "quick-return",
-            "crank angle of the feed stroke",
-            six_bar.extremes().longer_stroke(),
-            TAU * quick_return / (1.0 + quick_return),
-            Unit::Angle,
-            PI,
-        ),
-        minimum(
-            6,
-            "feed-rate",
-            "cuttings per minute",
-            feeder.feed_rate(),
-            feed_rate,
-            Unit::PerMinute,
-            size(feed_rate),
-        ),
-        minimum(
-            7,
-            "dwell",
-            "rest of the effector for filling",
-            feeder.dwell_time(),
-            pushing_time,
-            Unit::Second,
-            size(pushing_time),
-        ),
+        quick_return,
+        rate.minimum(feed_rate, size(feed_rate))
+            .with(feeder.feed_rate()),
+        dwell
+            .minimum(pushing_time, size(pushing_time))
+            .with(feeder.dwell_time()),
     ]);
     Goal::listed(goals)
 }

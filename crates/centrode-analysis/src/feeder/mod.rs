@@ -17,14 +17,14 @@ use centrode_machines::feeder::Feeder;
 
 pub use attainable::Attainable;
 pub use forces::{FeederForces, FeederForcesError};
-pub use goals::feeder_goals;
+pub use goals::{feeder_goals, six_bar_goals};
 pub use swing_spread::{SixBarTolerances, SwingSpread};
 
-use self::figures::FIGURES;
 use crate::no_screws::no_screws;
 use crate::progress::filling;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Table, Unit};
+pub use figures::FIGURES;
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances. With ten times fewer the reported spread is
 /// three times less certain; more take longer.

@@ -3,7 +3,7 @@ use crate::unit::Unit::{Angle, Count, Millimetre, Number, PerMillimetre, Pitch, 
 
 /// Figures of a gear pair, in the order in which they are shown.
 #[rustfmt::skip]
-pub(crate) const FIGURES: &[FigureGroup] = &[
+pub const FIGURES: &[FigureGroup] = &[
     FigureGroup {
         heading: "Pitch curves",
         columns: &["driver", "driven"],

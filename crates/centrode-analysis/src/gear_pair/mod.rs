@@ -21,7 +21,7 @@ use crate::contact::Meshing;
 use crate::progress::filling;
 use crate::{Contact, Finding, Report, Severity, Unit};
 
-pub(crate) use figures::FIGURES;
+pub use figures::FIGURES;
 pub(crate) use mesh::thinned;
 pub use pitch_curves::pitch_overlap;
 pub use remedies::{MAX_TEETH, PairRemedy, remedies};

@@ -33,16 +33,8 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
         } else {
             spec.title.clone()
         };
-        let kept = |shown: f64| shown / unit.factor();
-        let required = spec.required().map(|end| end.map(kept));
-        let size = required
-            .into_iter()
-            .flatten()
-            .fold(0.0, |size: f64, w| size.max(w.abs()));
-        let usual = if size > 0.0 { size } else { kept(1.0) };
-        let scale = spec.scale.map_or(usual, kept);
         let goal = Goal::new(number, String::clone(name), title, unit);
-        let goal = goal.range(required, scale).with(value);
+        let goal = goal.required(spec.range(), spec.scale).with(value);
         Found { goal, input }
     })
 }

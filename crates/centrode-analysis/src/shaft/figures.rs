@@ -6,7 +6,7 @@ use crate::unit::Unit::{
 
 /// Figures of a spiral shaft and its moving box, in the order in which they are shown.
 #[rustfmt::skip]
-pub(crate) const FIGURES: &[FigureGroup] = &[
+pub const FIGURES: &[FigureGroup] = &[
     FigureGroup {
         heading: "Box and groove",
         columns: &[],

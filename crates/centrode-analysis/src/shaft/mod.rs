@@ -10,10 +10,10 @@ use centrode_groove::{Pick, Schedule, SpiralShaft};
 use centrode_kinematics::machine::{Key, Keyway};
 
 use self::crossings::crossings;
-use self::figures::FIGURES;
 use crate::key_pressure::LoadedKey;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
+pub use figures::FIGURES;
 
 pub use moving_box::check_moving_box;
 

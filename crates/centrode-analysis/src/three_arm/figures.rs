@@ -3,7 +3,7 @@ use crate::unit::Unit::{Angle, Millimetre, MillimetrePerSecond, Radian, RadianPe
 
 /// Figures of a three-arm mechanism, in the order in which they are shown.
 #[rustfmt::skip]
-pub(crate) const FIGURES: &[FigureGroup] = &[
+pub const FIGURES: &[FigureGroup] = &[
     FigureGroup {
         heading: "Pitch curves of sun and intermediate gears",
         columns: &["sun", "intermediate"],

@@ -16,7 +16,6 @@ use centrode_geometry::Tolerance;
 use centrode_machines::three_arm::{PickingRule, PlantingRule, ThreeArm};
 
 use self::bearings::check_bearings;
-use self::figures::FIGURES;
 use self::gear_train::check_gear_train;
 use self::goals::all_goals;
 use self::pusher::check_pusher;
@@ -25,6 +24,7 @@ use crate::progress::filling;
 use crate::report::Missed;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Report, Severity, Table, Unit, gear_pair};
+pub use figures::FIGURES;
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use gear_train::{TrainTeeth, carrier_turn};

@@ -61,3 +61,136 @@ fn errors_of_the_check_are_a_goal_that_is_missed() {
     assert_eq!((&*missed[0].name, missed[0].value), ("check", Some(1.0)));
     assert!(!problem.evaluate(&start).feasible());
 }
+
+/// Designs with goals for figures of the check that their starts miss, one per family without other goals.
+const FIGURE_GOALS: [&str; 3] = [
+    r#"family = "gear-pair"
+[pitch]
+kind = "ellipse"
+eccentricity = 0.1
+module = 2
+tooth_count = 31
+[goals.fastest]
+figure = "ratio_max"
+between = [1.9, 1.95]
+[goals.size]
+figure = "center_distance"
+maximum = 55
+[vary]
+"pitch.eccentricity" = [0, 0.3]
+"pitch.module" = [1, 3]
+"#,
+    r#"family = "spiral-shaft"
+slider = { length = 42, clearance = 1 }
+[goals.moves]
+figure = "moved_distance"
+maximum = 2.2
+[goals.pressure]
+figure = "pressure_angle_max"
+maximum = 25
+[vary]
+"law.amplitude" = [0, 1.6]
+radius = [10, 30]
+"#,
+    r#"family = "moving-box"
+scheme = "elliptic-gear"
+gears = { eccentricity = 0.1 }
+[shaft.slider]
+length = 42
+clearance = 1
+[goals.moves]
+figure = "box_moved_distance"
+maximum = 2.2
+[vary]
+"gears.eccentricity" = [0, 0.5]
+"#,
+];
+
+#[test]
+fn a_search_meets_goals_for_figures_and_its_design_passes_the_check() {
+    for text in FIGURE_GOALS {
+        let file = FAMILIES.read(text.as_bytes()).expect("a design");
+        let start = file.mechanism().expect("a machine").check();
+        assert!(start.goals.iter().any(|g| g.met() == Some(false)), "{text}");
+        assert!(start.findings.iter().any(|f| f.rule == "goal"), "{text}");
+        for (_, strategy) in &Strategy::NAMES[..3] {
+            let search = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                pool.expect("threads").install(|| {
+                    let problem = file.family().problem(file.design()).expect("a problem");
+                    let settings = Settings {
+                        seed: 3,
+                        evaluations: 900,
+                        ..Settings::default()
+                    };
+                    let mut search =
+                        DesignSearch::new(problem.as_ref(), *strategy, settings).expect("a search");
+                    let ended = search.run(problem.as_ref(), &mut |_| ControlFlow::Continue(()));
+                    assert_eq!(ended, Ended::Target, "{strategy:?}: {text}");
+                    problem.design(&search.best())
+                })
+            };
+            let design = search(1);
+            assert_eq!(
+                design.to_toml().ok(),
+                search(2).to_toml().ok(),
+                "{strategy:?}"
+            );
+            let found = file.family().resolve(design.as_ref());
+            assert!(
+                found.expect("a machine").check().ok(),
+                "{strategy:?}: {text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn goals_that_no_design_meets_together_are_reported_as_infeasible() {
+    // A wide range of ratios needs an eccentricity that a nearly constant ratio does not allow.
+    let both = FIGURE_GOALS[0].replace("between = [1.9, 1.95]", "minimum = 1.9")
+        + "[goals.slowest]\nfigure = \"ratio_min\"\nminimum = 0.9\n";
+    let file = FAMILIES.read(both.as_bytes()).expect("a design");
+    let problem = file.family().problem(file.design()).expect("a problem");
+    let settings = Settings {
+        evaluations: 200,
+        ..Settings::default()
+    };
+    let (_, strategy) = Strategy::NAMES[2];
+    let mut search = DesignSearch::new(problem.as_ref(), strategy, settings).expect("a search");
+    search.run(problem.as_ref(), &mut |_| ControlFlow::Continue(()));
+    let remark = problem.remark(&search.best()).expect("a remark");
+    assert!(
+        remark.contains("goal 1 (fastest: ratio_max) and goal 3 (slowest: ratio_min) contradict"),
+        "{remark}"
+    );
+    let refused = |text: &str, key: &str, words: &str| {
+        let error = match FAMILIES.read(text.as_bytes()) {
+            Err(error) => error,
+            Ok(file) => file.mechanism().map(|_| ()).expect_err("an error"),
+        };
+        assert_eq!(error.key, key);
+        assert!(error.message().contains(words), "{}", error.message());
+    };
+    let twice = format!(
+        "{}[goals.slow]\nfigure = \"ratio_max\"\nmaximum = 1.5\n",
+        FIGURE_GOALS[0]
+    );
+    refused(
+        &twice,
+        "goals.slow",
+        "contradicts goals.fastest: ratio_max cannot be at least 1.9 and at most 1.5",
+    );
+    let unknown = FIGURE_GOALS[0].replace("\"ratio_max\"", "\"ratio_maxi\"");
+    refused(
+        &unknown,
+        "goals.fastest.figure",
+        "did you mean \"ratio_max\"?",
+    );
+    let varied = FIGURE_GOALS[0].replace("\"pitch.module\"", "\"pitch.modul\"");
+    refused(
+        &varied,
+        "vary.pitch.modul",
+        "did you mean \"pitch.module\"?",
+    );
+}

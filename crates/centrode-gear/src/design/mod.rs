@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
 use super::rolling::Member;
-use centrode_spec::{CutSpec, DesignSpec, DrawingSpec, degrees};
+use centrode_spec::goals::check_search;
+use centrode_spec::{CutSpec, DesignSpec, DrawingSpec, FigureGoalSpec, Named, degrees};
 
 mod body;
 mod gear;
@@ -65,6 +66,12 @@ pub struct GearPairDesign {
     /// The drawing sheets.
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
+    /// Goals by name.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub goals: Named<FigureGoalSpec>,
+    /// Numbers that a search may move, by their keys in quotes, each with its minimum and maximum value.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub vary: Named<[f64; 2]>,
 }
 
 fn default_name() -> String {
@@ -83,7 +90,7 @@ impl DesignSpec for GearPairDesign {
     const ABOUT: &'static str = "A non-circular gear pair.";
     const TEMPLATE: &'static str = include_str!("../../design/gear_pair.toml");
     const TABLES: &'static [&'static str] = &[
-        "pitch", "tool", "teeth", "driver", "driven", "housing", "cut", "drawing",
+        "pitch", "tool", "teeth", "driver", "driven", "housing", "cut", "drawing", "goals", "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -113,6 +120,8 @@ impl GearPairDesign {
             housing: HousingSpec::default(),
             cut: CutSpec::default(),
             drawing: DrawingSpec::default(),
+            goals: Named::new(),
+            vary: Named::new(),
         }
     }
 
@@ -167,7 +176,8 @@ impl GearPairDesign {
         }
         self.housing.validate().map_err(|e| e.inside("housing"))?;
         self.cut.validate().map_err(|e| e.inside("cut"))?;
-        self.drawing.validate().map_err(|e| e.inside("drawing"))
+        self.drawing.validate().map_err(|e| e.inside("drawing"))?;
+        check_search(&self.goals, &self.vary)
     }
 
     /// Tool that cuts a gear of the pair.

@@ -5,11 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use centrode_kinematics::linkage::Branch;
+use centrode_spec::goals::check_goals;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, design_name, finite, in_range, not_negative, positive,
     single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
+use centrode_spec::{DesignSpec, DrawingSpec, FigureGoalSpec, Named, SpecError, degrees};
 
 /// A feeder: a picking six-bar driven through an intermittent gear by a chain from a motor.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -29,6 +30,9 @@ pub struct FeederDesign {
     /// Goals of a good feeder.
     #[serde(default)]
     pub goals: FeederGoals,
+    /// Goals for other figures of the check, by name.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub figure_goals: Named<FigureGoalSpec>,
     /// Motor, chain and receiving slots.
     #[serde(default)]
     pub drive: DriveSpec,
@@ -228,7 +232,16 @@ impl DesignSpec for FeederDesign {
     const ABOUT: &'static str = "A willow-cutting feeder.";
     const TEMPLATE: &'static str = include_str!("../../design/feeder.toml");
     const TABLES: &'static [&'static str] = &[
-        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "optimise", "drawing",
+        "linkage",
+        "bounds",
+        "goals",
+        "figure_goals",
+        "drive",
+        "gears",
+        "plates",
+        "making",
+        "optimise",
+        "drawing",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -254,6 +267,7 @@ impl FeederDesign {
             linkage,
             bounds: BoundsSpec::default(),
             goals: FeederGoals::default(),
+            figure_goals: Named::new(),
             drive: DriveSpec::default(),
             gears: GearsSpec::default(),
             plates: PlatesSpec::default(),
@@ -292,6 +306,7 @@ impl FeederDesign {
         finite("linkage.pivot", y)?;
         self.bounds.validate().map_err(|e| e.inside("bounds"))?;
         self.goals.validate().map_err(|e| e.inside("goals"))?;
+        check_goals("figure_goals", &self.figure_goals)?;
         positive("drive.motor_rpm", self.drive.motor_rpm)?;
         positive("drive.chain_ratio", self.drive.chain_ratio)?;
         count_in_range("drive.slots", self.drive.slots, 1, 1000)?;

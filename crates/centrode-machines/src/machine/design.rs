@@ -14,7 +14,7 @@ use centrode_gear::design::GearPairDesign;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, design_name, finite, in_range, part_name, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec, SpecError};
+use centrode_spec::{DesignSpec, DrawingSpec, Named, SpecError, goals};
 
 /// Name of the fixed body.
 pub(super) const FRAME: &str = "frame";
@@ -80,11 +80,11 @@ pub struct MachineDesign {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub obstacles: BTreeMap<String, MachineObstacleSpec>,
     /// Goals by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub goals: BTreeMap<String, MachineGoalSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub goals: Named<MachineGoalSpec>,
     /// Numbers that a search may move, by their keys in quotes, each with its minimum and maximum value.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub vary: BTreeMap<String, [f64; 2]>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub vary: Named<[f64; 2]>,
 }
 
 /// The shaft that drives a composed machine.
@@ -191,6 +191,17 @@ impl MachineDesign {
             let key = format!("pairs.{name}");
             part_name(&key, name)?;
             pair.validate().map_err(|e| e.inside(&key))?;
+            for (table, is_empty) in [
+                ("goals", pair.goals.is_empty()),
+                ("vary", pair.vary.is_empty()),
+            ] {
+                if !is_empty {
+                    let rule = Rule::Unused(
+                        "inside a pair of a machine: goals name figures such as pair(drive).ratio_max",
+                    );
+                    return broken(&format!("{key}.{table}"), rule);
+                }
+            }
         }
         for (name, gear) in &self.gears {
             let key = format!("gears.{name}");
@@ -225,14 +236,12 @@ impl MachineDesign {
             part_name(&key, name)?;
             goal.validate().map_err(|e| e.inside(&key))?;
         }
-        for (name, [low, high]) in &self.vary {
-            let key = format!("vary.{name}");
-            finite(&key, *low)?;
-            finite(&key, *high)?;
-            if low >= high {
-                return broken(&key, Rule::NotInOrder(*low, *high));
-            }
-        }
+        let goals = self.goals.iter();
+        goals::check_contradictions(
+            "goals",
+            goals.map(|(name, goal)| (&**name, goal.words(), goal.range())),
+        )?;
+        goals::check_bounds(&self.vary)?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))?;
         match self.hardware() {
             Hardware::None => Ok(()),

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::{Machine, MachineDesign, MachineError};
+use centrode_spec::goals::check_varied;
 use centrode_spec::rule::in_range;
-use centrode_spec::{Design, SpecError, numbers_of};
+use centrode_spec::{MechanismError, SpecError, numbers_of};
 
 /// Maximum of lengths and coordinates, mm.
 const FAR: f64 = 1e5;
@@ -38,8 +39,6 @@ const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
 const OWN_TABLES: [&str; 2] = ["motion", "parts"];
 /// Names that Windows reserves for devices.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
-/// Tables whose numbers are requirements, not properties of the machine.
-const REQUIRED: [&str; 2] = ["goals", "vary"];
 
 impl MachineDesign {
     /// Checks that no number exceeds its limit.
@@ -56,20 +55,9 @@ impl MachineDesign {
     /// Checks that every key of `vary` names a number of the machine.
     ///
     /// # Errors
-    /// [`MachineError::Refused`] with the key at fault.
-    pub fn check_vary(&self) -> Result<(), MachineError> {
-        for key in self.vary.keys() {
-            let refused = |why: String| MachineError::refused(format!("vary.{key}"), why);
-            let table = key.split('.').next().unwrap_or_default();
-            if REQUIRED.contains(&table) || key == "input.turns" {
-                return Err(refused(
-                    "is a requirement: a search varies only numbers of the machine".into(),
-                ));
-            }
-            let numbered = Design::numbered(self, key);
-            numbered.map_err(|error| refused(error.message()))?;
-        }
-        Ok(())
+    /// [`MechanismError`] with the key at fault.
+    pub fn check_vary(&self) -> Result<(), MechanismError> {
+        check_varied(self, &self.vary, &["input.turns"])
     }
 }
 

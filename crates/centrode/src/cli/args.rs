@@ -85,7 +85,7 @@ pub(crate) struct Check {
     /// Print the report as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Instead of a check, list the figures that the goals of this design can refer to, with their extremes over the cycle
+    /// Instead of a check, list the figures that the goals of this design can name, with their values or their extremes over the cycle
     #[arg(long)]
     pub(crate) figures: bool,
     /// Print changed designs that fix the findings of the check; for gear pairs, designs with enough teeth that the
@@ -307,7 +307,7 @@ fn kerf(word: &str) -> Result<f64, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design lists the parameters that may change and their bounds: [optimise] for a three-arm, [bounds] for a feeder, [vary] for a machine. Ctrl-C ends the search and saves the best design found. --resume continues the search stored next to the output. If no design within the bounds reaches the goals, the search prints the closest figures. --widen then writes the design with the minimum widening of the bounds.\n\nExit status: 0 every goal is reached; 1 some are not (the file is still written); 2 no search is possible, the design file is invalid, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design lists the parameters that may change and their bounds: [optimise] for a three-arm, [bounds] for a feeder, [vary] for every other family. Ctrl-C ends the search and saves the best design found. --resume continues the search stored next to the output. If no design within the bounds reaches the goals, the search prints the closest figures. --widen then writes the design with the minimum widening of the bounds.\n\nExit status: 0 every goal is reached; 1 some are not (the file is still written); 2 no search is possible, the design file is invalid, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input

@@ -39,6 +39,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
     let problem = problem.map_err(|e| Failure::Usage(e.to_string()))?;
     let problem = problem.as_ref();
     let stored = Stored::beside(&command.output);
+    let begun = Instant::now();
     let mut search = if command.resume {
         let mut search = stored.read(problem)?;
         if !search.is_of(problem) {
@@ -79,7 +80,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
         })?
     };
     let text = source.text()?;
-    let (ended, seconds) = watched(problem, &mut search, &stored)?;
+    let (ended, seconds) = watched(problem, &mut search, &stored, begun)?;
     let best = search.best();
     let better = better(&text, problem, &best);
     stored.write_design(&better.map_err(|error| Failure::Usage(error.to_string()))?)?;
@@ -127,6 +128,7 @@ fn watched(
     problem: &dyn DesignProblem,
     search: &mut DesignSearch,
     stored: &Stored,
+    begun: Instant,
 ) -> Result<(Ended, f64), Failure> {
     let interrupt = Interrupt::watch();
     let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
@@ -135,9 +137,8 @@ fn watched(
     if let Ok(style) = ProgressStyle::with_template(style) {
         bar.set_style(style);
     }
-    let begun = Instant::now();
-    let mut due = begun + STORE;
-    let mut next_line = begun + LINE;
+    let mut due = Instant::now() + STORE;
+    let mut next_line = Instant::now() + LINE;
     let mut store = false;
     let ended = loop {
         if store {

@@ -12,6 +12,7 @@ use crate::machine::copies::{self, MachineCopiesSpec, Spin};
 use crate::machine::resolve::Builder;
 use crate::machine::{BodyPoint, Machine, MachineDesign, MachineError};
 use centrode_kinematics::transmission::{FromFn, Transmission, sorted};
+use centrode_spec::Named;
 
 /// Inputs per turn at which copies are compared with their originals.
 const SAMPLES: u32 = 120;
@@ -57,8 +58,8 @@ impl Machine {
             // These tables may name copies.
             loads: BTreeMap::new(),
             obstacles: BTreeMap::new(),
-            goals: BTreeMap::new(),
-            vary: BTreeMap::new(),
+            goals: Named::new(),
+            vary: Named::new(),
             ..design.clone()
         };
         let none = Expansion::default();

@@ -7,6 +7,7 @@ pub(super) mod obstacle;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use centrode_spec::goals::RequiredRange;
 use centrode_spec::rule::{Rule, broken, finite, positive, single_line};
 use centrode_spec::{SpecError, degrees};
 
@@ -91,12 +92,13 @@ impl MachineGoalSpec {
         }
     }
 
-    /// Minimum and maximum required figure, in the unit of the file.
+    /// Required figures as the file gives them.
     #[must_use]
-    pub fn required(&self) -> [Option<f64>; 2] {
-        match self.between {
-            Some([minimum, maximum]) => [Some(minimum), Some(maximum)],
-            None => [self.minimum, self.maximum],
+    pub fn range(&self) -> RequiredRange {
+        RequiredRange {
+            minimum: self.minimum,
+            maximum: self.maximum,
+            between: self.between,
         }
     }
 
@@ -122,29 +124,7 @@ impl MachineGoalSpec {
             _ => return broken("within_deg", Rule::Needed("with two inputs, from and to")),
         }
         self.validate_uniform()?;
-        for (key, value) in [("minimum", self.minimum), ("maximum", self.maximum)] {
-            if value.is_some() && self.between.is_some() {
-                return broken(key, Rule::Excludes("between"));
-            }
-            finite(key, value.unwrap_or(0.0))?;
-        }
-        for end in self.between.iter().flatten() {
-            finite("between", *end)?;
-        }
-        match self.required() {
-            [None, None] => {
-                return broken("minimum", Rule::NeedsOneOf("minimum, maximum and between"));
-            }
-            [Some(minimum), Some(maximum)] if minimum > maximum => {
-                let key = if self.between.is_some() {
-                    "between"
-                } else {
-                    "maximum"
-                };
-                return broken(key, Rule::NotInOrder(minimum, maximum));
-            }
-            _ => {}
-        }
+        self.range().validate()?;
         match self.scale {
             Some(scale) => positive("scale", scale),
             None => Ok(()),

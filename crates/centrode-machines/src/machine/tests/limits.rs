@@ -96,12 +96,12 @@ fn a_search_moves_numbers_of_the_machine_alone() {
     ] {
         let design = read(&format!("{LEG}\n{goal}[vary]\n\"{key}\" = [1, 2]\n"));
         let error = design.check_vary().expect_err(key);
-        assert_eq!(error.key(), format!("vary.{key}"));
+        assert_eq!(error.key, format!("vary.{key}"));
         assert!(error.to_string().contains(stated), "{error}");
     }
     let known = "bodies.crank.points.A[0]";
     let design = read(&format!("{LEG}\n{goal}[vary]\n\"{known}\" = [1, 2]\n"));
-    assert_eq!(design.check_vary(), Ok(()));
+    assert!(design.check_vary().is_ok());
     assert!(Design::numbered(&design, known).is_ok());
 }
 

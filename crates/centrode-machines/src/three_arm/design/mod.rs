@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::Parameter;
 use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
 use centrode_gear::pitch::PitchSpec;
+use centrode_spec::goals::check_goals;
 use centrode_spec::rule::{
     broken, count_in_range, design_name, finite, in_range, is_zero, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec, Rule, SpecError, degrees};
+use centrode_spec::{DesignSpec, DrawingSpec, FigureGoalSpec, Named, Rule, SpecError, degrees};
 
 mod arm;
 mod goals;
@@ -93,6 +94,9 @@ pub struct ThreeArmDesign {
     /// Goals of a good mechanism.
     #[serde(default)]
     pub goals: GoalsSpec,
+    /// Goals for other figures of the check, by name.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub figure_goals: Named<FigureGoalSpec>,
     /// Variables and objective of a search.
     #[serde(default, skip_serializing_if = "OptimiseSpec::is_default")]
     pub optimise: OptimiseSpec,
@@ -156,6 +160,7 @@ impl DesignSpec for ThreeArmDesign {
         "tray",
         "seedling",
         "goals",
+        "figure_goals",
         "optimise",
         "sun",
         "intermediate",
@@ -205,6 +210,7 @@ impl ThreeArmDesign {
             tray: TraySpec::default(),
             seedling: SeedlingSpec::default(),
             goals: GoalsSpec::default(),
+            figure_goals: Named::new(),
             optimise: OptimiseSpec::default(),
             sun: BodySpec::default(),
             intermediate: BodySpec::default(),
@@ -292,6 +298,7 @@ impl ThreeArmDesign {
         self.tray.validate().map_err(|e| e.inside("tray"))?;
         self.seedling.validate().map_err(|e| e.inside("seedling"))?;
         self.goals.validate().map_err(|e| e.inside("goals"))?;
+        check_goals("figure_goals", &self.figure_goals)?;
         let optimise = self.optimise.validate(self);
         optimise.map_err(|e| e.inside("optimise"))?;
         self.sun.validate().map_err(|e| e.inside("sun"))?;

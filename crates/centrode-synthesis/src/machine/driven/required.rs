@@ -79,7 +79,7 @@ fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], 
         true => shown.to_radians(),
         false => shown,
     };
-    let required = match (goal.over, goal.uniform, goal.required()) {
+    let required = match (goal.over, goal.uniform, goal.range().ends()) {
         (Some(Over::Deviation), Some(ends), _) => Required::Even(ends.map(kept)),
         (Some(Over::Span), _, [_, Some(band)]) => Required::Rest(kept(band)),
         _ => return None,

@@ -11,9 +11,10 @@ use centrode_spec::Design;
 
 pub use widened::{NotWidened, Widened};
 
+use super::reach::Reach;
 use super::{DesignProblem, Variable};
 use centrode_analysis::six_bar::RequiredSwing;
-use centrode_analysis::{Attainable, Goal, feeder_goals};
+use centrode_analysis::{Attainable, Goal, feeder_goals, six_bar_goals};
 use centrode_optimise::{Evaluation, Problem};
 
 /// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints a rotating crank, the
@@ -22,7 +23,7 @@ use centrode_optimise::{Evaluation, Problem};
 /// The displacement of a free pivot is penalised. Motor, gears and dwell do not affect it.
 ///
 /// Source: Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010, (14) to (18).
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct FeederProblem {
     start: FeederDesign,
     variables: Vec<Variable>,
@@ -30,6 +31,7 @@ pub struct FeederProblem {
     required: RequiredSwing,
     /// Minimum crank angle of the feed stroke, rad.
     feed: f64,
+    reach: Reach,
 }
 
 impl FeederProblem {
@@ -57,6 +59,7 @@ impl FeederProblem {
             },
             feed: TAU * goals.quick_return / (1.0 + goals.quick_return),
             start: design.clone(),
+            reach: Reach::default(),
         }
     }
 
@@ -109,6 +112,11 @@ impl Problem for FeederProblem {
         if let Some(six_bar) = six_bar {
             let feed = six_bar.extremes().longer_stroke();
             evaluation.constraints.push(self.feed - feed);
+            // A linkage whose crank does not turn has neither stroke.
+            if six_bar.four_bar().grashof_margin() > 0.0 {
+                self.reach
+                    .record(&six_bar_goals(&six_bar, &self.start.goals));
+            }
         }
         if self.start.optimise.free_pivot {
             evaluation.objective += self.start.optimise.pivot_weight * self.moved(&linkage);
@@ -158,6 +166,11 @@ impl DesignProblem for FeederProblem {
                 Some(found) => format!("infeasible: {found}"),
                 None => "infeasible: no crank-rocker within the bounds has the required transmission angle".into(),
             });
+        }
+        if ["swing", "quick-return"].into_iter().any(missed)
+            && let Some(why) = self.reach.contradictions()
+        {
+            return Some(why);
         }
         let spec = &self.start.optimise;
         spec.free_pivot.then(|| {

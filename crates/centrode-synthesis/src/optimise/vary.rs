@@ -1,50 +1,72 @@
-//! Search for a composed machine that meets its goals.
+//! Search for a design of any family that meets the goals in its file.
 
+use std::fmt;
 use std::sync::Arc;
 
 use centrode_machines::machine::{Machine, MachineDesign, MachineError};
-use centrode_spec::Design;
+use centrode_spec::{Design, Named};
 
+use super::reach::Reach;
 use crate::optimise::{DesignProblem, NotSearched, Variable};
 use centrode_analysis::{Goal, machine_goals};
 use centrode_optimise::{Evaluation, Problem};
 
 /// Decimals of the numbers found, mm or degrees.
 const DECIMALS: u32 = 6;
-/// Violation of a point that gives no machine, before the missing distance of a dyad is added.
+/// Violation of a point that gives no machine, before the missing distance of a dyad is added; and of a figure that cannot be
+/// determined.
 const NO_MACHINE: f64 = 1e3;
 
-/// A composed machine as a problem: the numbers that its table `vary` lets move, within their bounds, and its goals as
-/// constraints. A point that meets all of them ends the search.
-#[derive(Clone, Debug)]
-pub struct MachineProblem {
-    design: MachineDesign,
+/// Goals of a design with their figures, or the violation of a design that gives no machine.
+pub type GoalsOf = Box<dyn Fn(&dyn Design) -> Result<Vec<Goal>, f64> + Send + Sync>;
+
+/// A design as a problem: the numbers that its table `vary` lets move, within their bounds, and its goals as constraints. A point
+/// that meets all of them ends the search.
+pub struct VaryProblem {
+    design: Arc<dyn Design>,
+    goals_of: GoalsOf,
     variables: Vec<Variable>,
     start: Vec<f64>,
+    reach: Reach,
 }
 
-impl MachineProblem {
-    /// Makes the problem around a design.
+impl fmt::Debug for VaryProblem {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut fields = out.debug_struct("VaryProblem");
+        fields.field("design", &self.design).finish_non_exhaustive()
+    }
+}
+
+impl VaryProblem {
+    /// Makes the problem around a design with `goals` goals.
     ///
     /// # Errors
     /// [`NotSearched`] if the design has no goal, lets nothing vary, or names a key that holds no number.
-    pub fn new(design: &MachineDesign) -> Result<Self, NotSearched> {
+    pub fn new(
+        design: Arc<dyn Design>,
+        goals: usize,
+        vary: &Named<[f64; 2]>,
+        goals_of: GoalsOf,
+    ) -> Result<Self, NotSearched> {
         let no = |why: String| NotSearched::Design(why);
-        if design.goals.is_empty() {
+        if goals == 0 {
             return Err(no(
                 "the design has no goals: add a table [goals.name]".into()
             ));
         }
-        if design.vary.is_empty() {
+        if vary.is_empty() {
             return Err(no(
                 "no number may change: add a table [vary] with keys and bounds".into(),
             ));
         }
         let (mut variables, mut start) = (Vec::new(), Vec::new());
-        for (key, [low, high]) in &design.vary {
+        for (key, [low, high]) in vary {
             let numbered = design.numbered(key);
             let numbered = numbered.map_err(|error| no(format!("vary: {}", error.message())))?;
-            let is_angle = key.ends_with("_deg");
+            let is_angle = key
+                .split('[')
+                .next()
+                .is_some_and(|key| key.ends_with("_deg"));
             let kept = |value: f64| if is_angle { value.to_radians() } else { value };
             variables.push(Variable {
                 name: key.clone(),
@@ -57,14 +79,45 @@ impl MachineProblem {
             start.push(kept(now.clamp(*low, *high)));
         }
         Ok(Self {
-            design: design.clone(),
+            design,
+            goals_of,
             variables,
             start,
+            reach: Reach::default(),
         })
     }
 
+    /// The problem of a composed machine.
+    ///
+    /// # Errors
+    /// As for [`VaryProblem::new`].
+    pub fn of_machine(design: &MachineDesign) -> Result<Self, NotSearched> {
+        let goals_of = |design: &dyn Design| {
+            let Some(design) = design.downcast_ref() else {
+                return Err(f64::MAX);
+            };
+            match Machine::resolve(design) {
+                Ok(machine) => Ok(machine_goals(&machine)),
+                Err(MachineError::DoesNotClose { dyads }) => {
+                    // Only the first dyad counts: the others may close as soon as it does.
+                    let missing = dyads.first();
+                    let missing = missing.map_or(f64::INFINITY, |(_, found)| found.missing);
+                    Err((NO_MACHINE + missing).min(f64::MAX))
+                }
+                Err(_) => Err(f64::MAX),
+            }
+        };
+        let goals = design.goals.len();
+        Self::new(
+            Arc::new(design.clone()),
+            goals,
+            &design.vary,
+            Box::new(goals_of),
+        )
+    }
+
     fn at(&self, point: &[f64]) -> Option<Arc<dyn Design>> {
-        let mut design: Arc<dyn Design> = Arc::new(self.design.clone());
+        let mut design = Arc::clone(&self.design);
         for (variable, &value) in self.variables.iter().zip(point) {
             let numbered = design.numbered(&variable.key).ok()?;
             design = numbered.with(variable.written(value)).ok()?;
@@ -72,13 +125,19 @@ impl MachineProblem {
         Some(design)
     }
 
-    fn made(&self, point: &[f64]) -> Option<Result<Machine, MachineError>> {
-        let design = self.at(point)?;
-        Some(Machine::resolve(design.downcast_ref()?))
+    /// Goals at a point. A figure that cannot be determined is missed by far.
+    fn goals_at(&self, point: &[f64]) -> Result<Vec<Goal>, f64> {
+        let design = self.at(point).ok_or(f64::MAX)?;
+        let mut goals = (self.goals_of)(design.as_ref())?;
+        for goal in &mut goals {
+            goal.margin.get_or_insert(-NO_MACHINE * goal.scale);
+        }
+        self.reach.record(&goals);
+        Ok(goals)
     }
 }
 
-impl Problem for MachineProblem {
+impl Problem for VaryProblem {
     fn bounds(&self) -> Vec<(f64, f64)> {
         let bounds = self.variables.iter().map(|v| v.bounds);
         bounds.map(|[low, high]| (low, high)).collect()
@@ -91,35 +150,24 @@ impl Problem for MachineProblem {
     /// Evaluates a point: no objective, and each goal's miss by its scale; for a machine that does not close, the violation grows
     /// with the missing distance.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        let constraints = match self.made(point) {
-            Some(Ok(machine)) => {
-                let miss = |goal: &Goal| goal.margin.map_or(NO_MACHINE, |m| -m / goal.scale);
-                machine_goals(&machine).iter().map(miss).collect()
-            }
-            Some(Err(MachineError::DoesNotClose { dyads })) => {
-                // Only the first dyad counts: the others may close as soon as it does.
-                let missing = dyads
-                    .first()
-                    .map_or(f64::INFINITY, |(_, found)| found.missing);
-                vec![(NO_MACHINE + missing).min(f64::MAX)]
-            }
-            _ => vec![f64::MAX],
-        };
+        let miss = |goal: &Goal| -goal.margin.unwrap_or(-NO_MACHINE * goal.scale) / goal.scale;
         Evaluation {
             objective: 0.0,
-            constraints,
+            constraints: match self.goals_at(point) {
+                Ok(goals) => goals.iter().map(miss).collect(),
+                Err(violation) => vec![violation],
+            },
         }
     }
 }
 
-impl DesignProblem for MachineProblem {
+impl DesignProblem for VaryProblem {
     fn variables(&self) -> &[Variable] {
         &self.variables
     }
 
     fn design(&self, point: &[f64]) -> Arc<dyn Design> {
-        let design = self.at(point);
-        design.unwrap_or_else(|| Arc::new(self.design.clone()))
+        self.at(point).unwrap_or_else(|| Arc::clone(&self.design))
     }
 
     fn followers(&self, _point: &[f64]) -> Vec<(String, f64)> {
@@ -127,7 +175,7 @@ impl DesignProblem for MachineProblem {
     }
 
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>> {
-        Some(machine_goals(&self.made(point)?.ok()?))
+        self.goals_at(point).ok()
     }
 
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>> {
@@ -137,6 +185,16 @@ impl DesignProblem for MachineProblem {
     fn target(&self) -> Option<f64> {
         Some(0.0)
     }
+
+    fn remark(&self, point: &[f64]) -> Option<String> {
+        let goals = self.goals(point).unwrap_or_default();
+        let is_met = !goals.is_empty() && goals.iter().all(|goal| goal.met() == Some(true));
+        if is_met {
+            None
+        } else {
+            self.reach.contradictions()
+        }
+    }
 }
 
 #[cfg(test)]
@@ -145,7 +203,7 @@ mod tests {
     use centrode_optimise::{Ended, Settings};
     use centrode_spec::DesignSpec as _;
 
-    use super::MachineProblem;
+    use super::VaryProblem;
     use crate::optimise::{DesignProblem, DesignSearch, Strategy};
 
     const MACHINE: &str = r#"
@@ -182,7 +240,7 @@ joint = "W"
             "{MACHINE}[goals.swing]\nfigure = \"rocker.swing\"\nover = \"span\"\nbetween = [59.95, 60.05]\n[goals.holds]\nfigure = \"transmission(four-bar)\"\nover = \"minimum\"\nminimum = 24\n[vary]\n\"bodies.crank.points.B[0]\" = [20, 80]\n\"dyads.four-bar.lengths[0]\" = [100, 180]\n"
         );
         let design = MachineDesign::from_toml(&text).expect("a design");
-        let problem = MachineProblem::new(&design).expect("a problem");
+        let problem = VaryProblem::of_machine(&design).expect("a problem");
         let (_, strategy) = Strategy::NAMES[1];
         let settings = Settings {
             evaluations: 3000,
@@ -195,7 +253,7 @@ joint = "W"
         let best = problem.goals(&search.best()).expect("a machine");
         assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
         assert!(
-            MachineProblem::new(&MachineDesign::from_toml(MACHINE).expect("a design")).is_err()
+            VaryProblem::of_machine(&MachineDesign::from_toml(MACHINE).expect("a design")).is_err()
         );
     }
 }
