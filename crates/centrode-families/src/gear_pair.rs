@@ -75,21 +75,21 @@ impl Mechanism for GearPair {
     }
 
     fn check(&self) -> Report {
-        check(self).with_goals(&self.design().goals, true)
+        check(self).with_goals(&PlannedPair::design(self).goals, true)
     }
 
     fn check_motion(&self) -> Report {
-        check_planned(self).with_goals(&self.design().goals, false)
+        check_planned(self).with_goals(&PlannedPair::design(self).goals, false)
     }
 
     fn check_made(&self) -> Report {
-        check_made(self).with_goals(&self.design().goals, false)
+        check_made(self).with_goals(&PlannedPair::design(self).goals, false)
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let contact = Contact::analyse(self);
         (
-            check_contact(self, &contact).with_goals(&self.design().goals, true),
+            check_contact(self, &contact).with_goals(&PlannedPair::design(self).goals, true),
             contact_curves(&contact),
         )
     }

@@ -1,7 +1,7 @@
 use super::{Limit, Mechanism, Resolved};
 use centrode_analysis::{
     Report, Table, Unit, check_machine, check_machine_goals, check_machine_motion, machine_figures,
-    machine_layers,
+    machine_goals, machine_layers,
 };
 use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, linked, machine};
@@ -9,9 +9,9 @@ use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::LinkedMachine;
-use centrode_machines::machine::{DyadKind, Machine, MachineDesign, Over};
+use centrode_machines::machine::{DyadKind, Machine, MachineDesign, MachineError, Over};
 use centrode_spec::{Design, MechanismError};
-use centrode_synthesis::optimise::{DesignProblem, NotSearched, VaryProblem};
+use centrode_synthesis::optimise::{DesignProblem, NO_MACHINE, NotSearched, VaryProblem};
 use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 use std::sync::Arc;
 
@@ -123,7 +123,20 @@ impl Resolved for Machine {
     }
 
     fn problem(design: &MachineDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
-        Ok(Box::new(VaryProblem::of_machine(design)?))
+        let goals_of =
+            |design: &dyn Design| match Self::resolve(design.downcast_ref().ok_or(f64::MAX)?) {
+                Ok(machine) => Ok(machine_goals(&machine)),
+                Err(MachineError::DoesNotClose { dyads }) => {
+                    // Only the first dyad counts: the others may close as soon as it does.
+                    let missing = dyads.first();
+                    let missing = missing.map_or(f64::INFINITY, |(_, found)| found.missing);
+                    Err((NO_MACHINE + missing).min(f64::MAX))
+                }
+                Err(_) => Err(f64::MAX),
+            };
+        let (start, count) = (Arc::new(design.clone()), design.goals.len());
+        let problem = VaryProblem::new(start, count, &design.vary, Box::new(goals_of))?;
+        Ok(Box::new(problem))
     }
 }
 

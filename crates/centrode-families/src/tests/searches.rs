@@ -77,7 +77,7 @@ between = [1.9, 1.95]
 figure = "center_distance"
 maximum = 55
 [vary]
-"pitch.eccentricity" = [0, 0.3]
+"pitch.eccentricity" = [0, 0.4]
 "pitch.module" = [1, 3]
 "#,
     r#"family = "spiral-shaft"
@@ -193,4 +193,61 @@ fn goals_that_no_design_meets_together_are_reported_as_infeasible() {
         "vary.pitch.modul",
         "did you mean \"pitch.module\"?",
     );
+}
+
+#[test]
+fn a_search_finds_lengths_of_a_linkage_that_meet_the_goals() {
+    let text = r#"family = "machine"
+[frame.points]
+O = [0, 0]
+D = [105, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+points = { B = [77, 0] }
+[dyads.four-bar]
+type = "RRR"
+from = "crank.B"
+to = "frame.D"
+lengths = [147, 127]
+side = "left"
+bodies = ["coupler", "rocker"]
+joint = "C"
+[dyads.slider]
+type = "RRP"
+from = "crank.B"
+lengths = [200]
+line = "frame.O"
+line_deg = 0
+side = "forward"
+bodies = ["rod", "ram"]
+joint = "W"
+[goals.swing]
+figure = "rocker.swing"
+over = "span"
+between = [59.95, 60.05]
+[goals.holds]
+figure = "transmission(four-bar)"
+over = "minimum"
+minimum = 24
+[vary]
+"bodies.crank.points.B[0]" = [20, 80]
+"dyads.four-bar.lengths[0]" = [100, 180]
+"#;
+    let file = FAMILIES.read(text.as_bytes()).expect("a design");
+    let problem = file.family().problem(file.design()).expect("a problem");
+    let (_, strategy) = Strategy::NAMES[1];
+    let settings = Settings {
+        evaluations: 3000,
+        seed: 2,
+        ..Settings::default()
+    };
+    let mut search = DesignSearch::new(problem.as_ref(), strategy, settings).expect("a search");
+    let ended = search.run(problem.as_ref(), &mut |_| ControlFlow::Continue(()));
+    assert_eq!(ended, Ended::Target);
+    let best = problem.goals(&search.best()).expect("a machine");
+    assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
+    let without = text.split("[goals").next().expect("a start");
+    let file = FAMILIES.read(without.as_bytes()).expect("a design");
+    assert!(file.family().problem(file.design()).is_err());
 }

@@ -13,4 +13,4 @@ pub use design::{DesignProblem, NotSearched, Variable};
 pub use design_search::{DesignSearch, Strategy};
 pub use guided::{GuidedSearch, GuidedStep};
 pub use relaxed_path::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border, reached};
-pub use vary::{GoalsOf, VaryProblem};
+pub use vary::{GoalsOf, NO_MACHINE, VaryProblem};

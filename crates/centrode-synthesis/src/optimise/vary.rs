@@ -3,19 +3,18 @@
 use std::fmt;
 use std::sync::Arc;
 
-use centrode_machines::machine::{Machine, MachineDesign, MachineError};
 use centrode_spec::{Design, Named};
 
 use super::reach::Reach;
 use crate::optimise::{DesignProblem, NotSearched, Variable};
-use centrode_analysis::{Goal, machine_goals};
+use centrode_analysis::Goal;
 use centrode_optimise::{Evaluation, Problem};
 
 /// Decimals of the numbers found, mm or degrees.
 const DECIMALS: u32 = 6;
-/// Violation of a point that gives no machine, before the missing distance of a dyad is added; and of a figure that cannot be
-/// determined.
-const NO_MACHINE: f64 = 1e3;
+/// Violation of a point that gives no machine, and miss of a goal whose figure cannot be determined, as a share of its scale. It must
+/// be far above the misses of goals that have a figure.
+pub const NO_MACHINE: f64 = 1e3;
 
 /// Goals of a design with their figures, or the violation of a design that gives no machine.
 pub type GoalsOf = Box<dyn Fn(&dyn Design) -> Result<Vec<Goal>, f64> + Send + Sync>;
@@ -85,35 +84,6 @@ impl VaryProblem {
             start,
             reach: Reach::default(),
         })
-    }
-
-    /// The problem of a composed machine.
-    ///
-    /// # Errors
-    /// As for [`VaryProblem::new`].
-    pub fn of_machine(design: &MachineDesign) -> Result<Self, NotSearched> {
-        let goals_of = |design: &dyn Design| {
-            let Some(design) = design.downcast_ref() else {
-                return Err(f64::MAX);
-            };
-            match Machine::resolve(design) {
-                Ok(machine) => Ok(machine_goals(&machine)),
-                Err(MachineError::DoesNotClose { dyads }) => {
-                    // Only the first dyad counts: the others may close as soon as it does.
-                    let missing = dyads.first();
-                    let missing = missing.map_or(f64::INFINITY, |(_, found)| found.missing);
-                    Err((NO_MACHINE + missing).min(f64::MAX))
-                }
-                Err(_) => Err(f64::MAX),
-            }
-        };
-        let goals = design.goals.len();
-        Self::new(
-            Arc::new(design.clone()),
-            goals,
-            &design.vary,
-            Box::new(goals_of),
-        )
     }
 
     fn at(&self, point: &[f64]) -> Option<Arc<dyn Design>> {
@@ -194,66 +164,5 @@ impl DesignProblem for VaryProblem {
         } else {
             self.reach.contradictions()
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use centrode_machines::machine::MachineDesign;
-    use centrode_optimise::{Ended, Settings};
-    use centrode_spec::DesignSpec as _;
-
-    use super::VaryProblem;
-    use crate::optimise::{DesignProblem, DesignSearch, Strategy};
-
-    const MACHINE: &str = r#"
-family = "machine"
-[frame.points]
-O = [0, 0]
-D = [105, 0]
-[bodies.crank]
-on = "frame.O"
-law = { ratio = 1 }
-points = { B = [77, 0] }
-[dyads.four-bar]
-type = "RRR"
-from = "crank.B"
-to = "frame.D"
-lengths = [147, 127]
-side = "left"
-bodies = ["coupler", "rocker"]
-joint = "C"
-[dyads.slider]
-type = "RRP"
-from = "crank.B"
-lengths = [200]
-line = "frame.O"
-line_deg = 0
-side = "forward"
-bodies = ["rod", "ram"]
-joint = "W"
-"#;
-
-    #[test]
-    fn a_search_finds_lengths_that_meet_the_goals() {
-        let text = format!(
-            "{MACHINE}[goals.swing]\nfigure = \"rocker.swing\"\nover = \"span\"\nbetween = [59.95, 60.05]\n[goals.holds]\nfigure = \"transmission(four-bar)\"\nover = \"minimum\"\nminimum = 24\n[vary]\n\"bodies.crank.points.B[0]\" = [20, 80]\n\"dyads.four-bar.lengths[0]\" = [100, 180]\n"
-        );
-        let design = MachineDesign::from_toml(&text).expect("a design");
-        let problem = VaryProblem::of_machine(&design).expect("a problem");
-        let (_, strategy) = Strategy::NAMES[1];
-        let settings = Settings {
-            evaluations: 3000,
-            seed: 2,
-            ..Settings::default()
-        };
-        let mut search = DesignSearch::new(&problem, strategy, settings).expect("a search");
-        let ended = search.run(&problem, &mut |_| std::ops::ControlFlow::Continue(()));
-        assert_eq!(ended, Ended::Target);
-        let best = problem.goals(&search.best()).expect("a machine");
-        assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
-        assert!(
-            VaryProblem::of_machine(&MachineDesign::from_toml(MACHINE).expect("a design")).is_err()
-        );
     }
 }
