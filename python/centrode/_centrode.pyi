@@ -104,6 +104,8 @@ _MotionLaw: TypeAlias = Literal[
     "polynomial-345",
     "polynomial-4567",
 ]
+_Goals: TypeAlias = Mapping[str, Mapping[str, object]]
+_Vary: TypeAlias = Mapping[str, tuple[_Real, _Real]]
 _SheetSize: TypeAlias = Literal["A4", "A3", "A2", "A1", "A0"]
 _Projection: TypeAlias = Literal["first-angle", "third-angle"]
 _CamFormat: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv"]
@@ -592,6 +594,8 @@ class SpiralShaft(BoxDrive):
         mass: _Real = 10.0,
         groove_friction: _Real = 0.1,
         rail_friction: _Real = 0.15,
+        goals: _Goals | None = None,
+        vary: _Vary | None = None,
         name: str = "spiral-shaft",
         title: str = "",
     ) -> SpiralShaft: ...
@@ -618,6 +622,8 @@ class SpiralShaft(BoxDrive):
         mass: _Real = 10.0,
         groove_friction: _Real = 0.1,
         rail_friction: _Real = 0.15,
+        goals: _Goals | None = None,
+        vary: _Vary | None = None,
         name: str = "spiral-shaft",
         title: str = "",
     ) -> SpiralShaft: ...
@@ -655,6 +661,8 @@ class MovingBox(BoxDrive):
         moved_distance: _Real | None = None,
         module: _Real = 2.25,
         tooth_count: _Count = 23,
+        goals: _Goals | None = None,
+        vary: _Vary | None = None,
         name: str = "moving-box",
         title: str = "",
     ) -> MovingBox: ...
@@ -707,6 +715,8 @@ class GearPair(Mechanism):
         housing_gap: _Real | None = None,
         housing_wall: _Real = 10.0,
         kerf: _Real = 0.0,
+        goals: _Goals | None = None,
+        vary: _Vary | None = None,
         drawing: DrawingSpec | None = None,
         name: str = "gear-pair",
         title: str = "",

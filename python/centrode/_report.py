@@ -1,5 +1,5 @@
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from ._goal import Goal
@@ -97,6 +97,8 @@ class Report:
     """Figures by name."""
     units: Mapping[str, str]
     """Unit of each figure, such as "mm" or "rad"; empty for a plain number."""
+    given: Mapping[str, bool] = field(default_factory=dict)
+    """True for a figure that the design gives, False for one that it may give but leaves to the program."""
     goals: tuple[Goal, ...] = ()
     """Goals, if the design has any."""
     tables: tuple[Table, ...] = ()

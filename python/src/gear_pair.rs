@@ -76,6 +76,9 @@ const FARTHEST: f64 = 1e6;
 ///     housing_wall: Thickness of the wall around the chamber, mm.
 ///     kerf: Width of the cut that cuts both gears from a plate, mm. The check then includes the material that the cut leaves.
 ///         Cutting files contain the path of its middle.
+///     goals: Goals by name, each a dict with the keys of the design file: figure, and minimum, maximum or between, such as
+///         {"fast": {"figure": "ratio_max", "minimum": 1.9}}.
+///     vary: Numbers that a search may move, with their minimum and maximum, such as {"pitch.eccentricity": (0, 0.5)}.
 ///     drawing: Title block and layout of the drawing sheets.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
@@ -119,7 +122,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, **keywords), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', housing_gap=None, housing_wall=10.0, kerf=0.0, drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, **keywords), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', housing_gap=None, housing_wall=10.0, kerf=0.0, goals=None, vary=None, drawing=None, name='gear-pair', title='')")]
     fn new(
         py: Python<'_>,
         pitch: PyRef<'_, Pitch>,
@@ -127,7 +130,7 @@ impl GearPair {
     ) -> Answer<PyClassInitializer<Self>> {
         let mut design = GearPairDesign::new(pitch.spec.clone());
         let call = Call::new("GearPair.__new__", keywords);
-        fill!(call, design, "": name, title, mean_ratio, tooth_count, center_distance, tool, drawing);
+        fill!(call, design, "": name, title, mean_ratio, tooth_count, center_distance, tool, drawing, goals, vary);
         fill!(call, design.teeth, "teeth.": addendum, fit, tip_shortening, phase, backlash, backlash_angle, thickness_split);
         fill!(call, design.teeth, "teeth.": minimum_tip_width_coefficient, thickness_deviations, pin_diameter);
         fill!(call, design.driver, "driver.": driver_shift = shift, driver_addendum = addendum);

@@ -2,7 +2,7 @@
 
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::Keyway as KeywaySpec;
-use centrode_spec::DrawingSpec as Drawing;
+use centrode_spec::{DrawingSpec as Drawing, FigureGoalSpec, Named};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyErr, PyResult, Python};
 use pyo3::types::{PyDict, PyDictMethods};
@@ -13,6 +13,21 @@ use crate::count::Count;
 use crate::drawing::DrawingSpec;
 use crate::error::{Answer, class};
 use crate::word::Word;
+
+/// Sets fields of a table, at a position in its design, from keywords of their names or `keyword = field`.
+macro_rules! fill {
+    ($call:expr, $table:expr, $place:literal: $($keyword:ident $(= $field:ident)?),*) => {
+        $($crate::keywords::fill!(@ $call, $table, $place, $keyword $($field)?);)*
+    };
+    (@ $call:expr, $table:expr, $place:literal, $field:ident) => {
+        $crate::keywords::fill!(@ $call, $table, $place, $field $field)
+    };
+    (@ $call:expr, $table:expr, $place:literal, $keyword:ident $field:ident) => {
+        if let Some(value) = $call.take(stringify!($keyword), concat!($place, stringify!($field)))? {
+            $table.$field = value;
+        }
+    };
+}
 
 /// A field of a spec, as a keyword gives it.
 pub(crate) trait Field: Sized {
@@ -105,6 +120,37 @@ impl<W: Word> Field for Vec<W> {
     }
 }
 
+impl<F: Field> Field for Named<F> {
+    fn none() -> Option<Self> {
+        Some(Self::new())
+    }
+
+    fn read(key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {
+        let table = object.cast::<PyDict>().map_err(PyErr::from)?;
+        let entries = table.iter().map(|(name, value)| {
+            let name: String = name.extract()?;
+            let field = F::read(&format!("{key}.{name}"), &value)?;
+            Ok((name, field))
+        });
+        entries.collect()
+    }
+}
+
+impl Field for FigureGoalSpec {
+    fn read(key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {
+        let table = object.cast::<PyDict>().map_err(PyErr::from)?;
+        // The keywords that are taken are removed from the copy.
+        let call = Call::new("goal", Some(table.copy()?));
+        let mut goal = Self::default();
+        fill!(call, goal, "": figure, title, minimum, maximum, between, scale);
+        call.end()?;
+        if goal.figure.is_empty() {
+            return Err(PyTypeError::new_err(format!("{key} needs a figure")).into());
+        }
+        Ok(goal)
+    }
+}
+
 impl<F: Field> Field for Option<F> {
     fn none() -> Option<Self> {
         Some(None)
@@ -172,21 +218,6 @@ impl<'py> Call<'py> {
             Err(PyTypeError::new_err(sentence))
         })
     }
-}
-
-/// Sets fields of a table, at a position in its design, from keywords of their names or `keyword = field`.
-macro_rules! fill {
-    ($call:expr, $table:expr, $place:literal: $($keyword:ident $(= $field:ident)?),*) => {
-        $($crate::keywords::fill!(@ $call, $table, $place, $keyword $($field)?);)*
-    };
-    (@ $call:expr, $table:expr, $place:literal, $field:ident) => {
-        $crate::keywords::fill!(@ $call, $table, $place, $field $field)
-    };
-    (@ $call:expr, $table:expr, $place:literal, $keyword:ident $field:ident) => {
-        if let Some(value) = $call.take(stringify!($keyword), concat!($place, stringify!($field)))? {
-            $table.$field = value;
-        }
-    };
 }
 
 /// A table of fields that are known, and of those from keywords: zero, empty or none by default.

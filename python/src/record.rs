@@ -8,6 +8,7 @@ use centrode_gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_kinematics::linkage;
 use centrode_kinematics::machine::{LinkedMachine, Part};
 use centrode_optimise::{Ended, Progress};
+use centrode_spec::Design;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
@@ -139,8 +140,12 @@ pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bou
     )
 }
 
-/// A report.
-pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
+/// A report on a design.
+pub(crate) fn report<'py>(
+    py: Python<'py>,
+    report: &Report,
+    design: &dyn Design,
+) -> PyResult<Bound<'py, PyAny>> {
     let units = report.units().into_iter();
     let units = units.map(|(key, unit)| (key, unit.symbol()));
     record!(py, "centrode._report" "Report", report => []
@@ -148,6 +153,7 @@ pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'p
         findings: tuple(py, report.findings.iter().map(|f| finding(py, f)))?,
         values: report.values.clone(),
         units: units.collect::<BTreeMap<_, _>>(),
+        given: report.given(design),
         goals: goals(py, &report.goals)?,
         tables: tuple(py, report.tables.iter().map(|t| table(py, t)))?,
     )

@@ -15,6 +15,7 @@ PROGRAMS = {
     "tests/campaigns/contact_seating.py": ("--pairs 2 --inputs 5", "0 failures"),
     "tests/campaigns/contours.py": ("--gears 8", "0 pairs failed"),
     "tests/campaigns/hostile.py": ("--designs 12 --seconds 60", "0 failed"),
+    "tests/campaigns/searches.py": ("--starts 2", "0 designs reached their goals and failed the check"),
     "tests/campaigns/swings.py": ("--teeth 3", "designs; longest"),
     "tests/campaigns/law_proofs.py": ("--laws 1", "0 certificates refused"),
     "tests/campaigns/page_looks.py": (f"--to {{folder}} --width 390 --scheme dark {PAIR}", "0 faults"),

@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use centrode_spec::{FigureGoalSpec, Named};
+use centrode_spec::{Design, FigureGoalSpec, Given, Named};
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 
@@ -234,6 +234,18 @@ impl Report {
             .collect()
     }
 
+    /// Whether each figure is given by the design, or found by the program though the design may give it; figures that are results
+    /// are not in the list.
+    #[must_use]
+    pub fn given(&self, design: &dyn Design) -> BTreeMap<&'static str, bool> {
+        let given = Given::new(design);
+        let of = |(&key, &value): (&&'static str, &f64)| {
+            let factor = self.unit(key).map_or(1.0, Unit::factor);
+            Some((key, given.has(key, value * factor)?))
+        };
+        self.values.iter().filter_map(of).collect()
+    }
+
     /// Puts the worst findings first, and causes before their consequences.
     pub(crate) fn worst_first(&mut self) {
         severity::worst_first(&mut self.findings);
@@ -331,16 +343,20 @@ pub struct ReportFile<'a> {
     pub report: &'a Report,
     /// Units of the figures in `values`.
     pub units: BTreeMap<&'static str, Unit>,
+    /// Whether a figure is given by the design (true) or found by the program though the design may give it (false); other figures
+    /// are results.
+    pub given: BTreeMap<&'static str, bool>,
 }
 
 impl<'a> ReportFile<'a> {
-    /// The file of a report.
+    /// The file of a report on a design.
     #[must_use]
-    pub fn new(report: &'a Report) -> Self {
+    pub fn new(report: &'a Report, design: &dyn Design) -> Self {
         Self {
             ok: report.ok(),
             report,
             units: report.units(),
+            given: report.given(design),
         }
     }
 

@@ -6,7 +6,7 @@ use centrode_analysis::{FigureGroup, Goal, Report, Table};
 use centrode_spec::{Design, FigureGoalSpec, MechanismError, Named};
 use centrode_synthesis::optimise::{DesignProblem, NotSearched, VaryProblem};
 
-use super::{Depth, Resolved};
+use super::{Depth, Mechanism, Resolved};
 
 /// Checks that the goals in a table of a design name figures of the check.
 pub(crate) fn check_names(
@@ -50,6 +50,14 @@ pub(crate) fn figures(report: &Report) -> Vec<Table> {
         }
     }
     tables
+}
+
+/// Report of the smallest depth at which all goals of a mechanism have figures.
+pub(crate) fn check_goals(mechanism: &dyn Mechanism) -> Report {
+    let is_known = |report: &Report| report.goals.iter().all(|goal| goal.value.is_some());
+    let reports = Depth::ALL.into_iter().map(|depth| mechanism.report(depth));
+    let mut reports = reports.skip_while(|report| !is_known(report));
+    reports.next().unwrap_or_else(|| mechanism.check())
 }
 
 /// Search problem of a design with goals for figures. Its points are checked as deep as these figures need.

@@ -86,6 +86,10 @@ impl Mechanism for GearPair {
         check_made(self).with_goals(&PlannedPair::design(self).goals, false)
     }
 
+    fn check_goals(&self) -> Report {
+        figure_goals::check_goals(self)
+    }
+
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let contact = Contact::analyse(self);
         (

@@ -52,6 +52,17 @@ pub fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
     found
 }
 
+/// Every number of a design's text by its key; empty if it is no TOML.
+pub(super) fn numbers_in(text: &str) -> Vec<(String, f64)> {
+    let mut found = Vec::new();
+    if let Ok(root) = toml::from_str(text) {
+        numbers(&root, &mut Path::default(), &mut |key, number| {
+            found.push((key.to_owned(), number));
+        });
+    }
+    found
+}
+
 impl NumberedDesign {
     /// Finds the number at a key of a design's text.
     pub(super) fn new(family: DesignFamily, text: &str, key: &str) -> Result<Self, DesignError> {

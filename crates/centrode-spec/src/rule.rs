@@ -272,6 +272,11 @@ pub fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
+/// Whether two numbers differ by rounding at most: a few units in the twelfth digit.
+pub(crate) fn same(one: f64, other: f64) -> bool {
+    (one - other).abs() <= 1e-12 * one.abs().max(other.abs())
+}
+
 /// Checks a count against its minimum and maximum.
 ///
 /// # Errors

@@ -1,4 +1,5 @@
 use std::cmp::Reverse;
+use std::collections::BTreeSet;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -93,6 +94,13 @@ impl DesignFamily {
         found.retain(|path| is_at(&table(path), &table(key)));
         let name = |path: &String| path[path.rfind('.').map_or(0, |dot| dot + 1)..].to_owned();
         found.iter().map(name).collect()
+    }
+
+    /// Names of all keys of the family's design files, without their tables.
+    pub(super) fn key_names(&self) -> BTreeSet<String> {
+        let keys = self.keys(&|_| true).into_iter();
+        keys.map(|key| key[key.rfind('.').map_or(0, |dot| dot + 1)..].to_owned())
+            .collect()
     }
 
     /// All keys of the family's design files whose name passes `is_required`.

@@ -98,7 +98,7 @@ impl Mechanism {
     /// (True, 10)
     fn check<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyAny>> {
         let report = self.ask(py, |machine| machine.check())?;
-        Ok(record::report(py, &report)?)
+        Ok(record::report(py, &report, self.0.design())?)
     }
 
     /// Writes a certificate of the contact of a gear pair at every driver angle, as `centrode prove` does; returns the

@@ -29,6 +29,9 @@ use crate::word::Word;
 ///     moved_distance: Distance by which a plain shaft must move the box in the picking window, mm, instead of both.
 ///     module: Module of the gears, mm.
 ///     tooth_count: Tooth count of each gear.
+///     goals: Goals by name, each a dict with the keys of the design file: figure, and minimum, maximum or between, such as
+///         {"fast": {"figure": "moved_distance", "maximum": 2.1}}.
+///     vary: Numbers that a search may move, with their minimum and maximum, such as {"gears.eccentricity": (0, 0.5)}.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
@@ -68,7 +71,7 @@ impl Class for MovingBox {
 #[pymethods]
 impl MovingBox {
     #[new]
-    #[pyo3(signature = (shaft=None, **keywords), text_signature = "(shaft=None, *, scheme=None, eccentricity=None, speed_ratio=None, moved_distance=None, module=2.25, tooth_count=23, name='moving-box', title='')")]
+    #[pyo3(signature = (shaft=None, **keywords), text_signature = "(shaft=None, *, scheme=None, eccentricity=None, speed_ratio=None, moved_distance=None, module=2.25, tooth_count=23, goals=None, vary=None, name='moving-box', title='')")]
     fn new(
         py: Python<'_>,
         shaft: Option<PyRef<'_, SpiralShaft>>,
@@ -76,7 +79,7 @@ impl MovingBox {
     ) -> Answer<PyClassInitializer<Self>> {
         let call = Call::new("MovingBox.__new__", keywords);
         let (mut design, mut gears) = (MovingBoxDesign::default(), EllipticGears::default());
-        fill!(call, design, "": name, title);
+        fill!(call, design, "": goals, vary, name, title);
         fill!(call, gears, "gears.": eccentricity, speed_ratio, moved_distance, module, tooth_count);
         let scheme = call.optional("scheme", "scheme")?;
         call.end()?;

@@ -50,6 +50,9 @@ use crate::wait::wait;
 ///     mass: Moved mass, kg.
 ///     groove_friction: Coefficient of friction between slider and groove.
 ///     rail_friction: Coefficient of friction between box and rails.
+///     goals: Goals by name, each a dict with the keys of the design file: figure, and minimum, maximum or between, such as
+///         {"fast": {"figure": "moved_distance", "maximum": 2.1}}.
+///     vary: Numbers that a search may move, with their minimum and maximum, such as {"law.amplitude": (0, 1.6)}.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
@@ -79,14 +82,14 @@ impl Class for SpiralShaft {
 #[pymethods]
 impl SpiralShaft {
     #[new]
-    #[pyo3(signature = (**keywords), text_signature = "(*, lead=20.0, holes=14, radius=15.0, amplitude=0.0, harmonic=1, phase=0.0, rotated=False, speed=None, expression=None, moved_distance=None, window=1.0471975511965976, pick=0.0, pot_width=18.0, reversal_angle=None, reversal_law='harmonic', return_offset=0.0, groove_width=10.0, groove_depth=4.0, slider_length=None, slider_clearance=None, speed_rpm=200.0, mass=10.0, groove_friction=0.1, rail_friction=0.15, name='spiral-shaft', title='')")]
+    #[pyo3(signature = (**keywords), text_signature = "(*, lead=20.0, holes=14, radius=15.0, amplitude=0.0, harmonic=1, phase=0.0, rotated=False, speed=None, expression=None, moved_distance=None, window=1.0471975511965976, pick=0.0, pot_width=18.0, reversal_angle=None, reversal_law='harmonic', return_offset=0.0, groove_width=10.0, groove_depth=4.0, slider_length=None, slider_clearance=None, speed_rpm=200.0, mass=10.0, groove_friction=0.1, rail_friction=0.15, goals=None, vary=None, name='spiral-shaft', title='')")]
     fn new(
         py: Python<'_>,
         keywords: Option<Bound<'_, PyDict>>,
     ) -> Answer<PyClassInitializer<Self>> {
         let call = Call::new("SpiralShaft.__new__", keywords);
         let mut design = SpiralShaftDesign::default();
-        fill!(call, design, "": name, title, lead, holes, radius, moved_distance, window, pick, pot_width, return_offset);
+        fill!(call, design, "": goals, vary, name, title, lead, holes, radius, moved_distance, window, pick, pot_width, return_offset);
         fill!(call, design.groove, "groove.": groove_width = width, groove_depth = depth);
         fill!(call, design.load, "load.": speed_rpm, mass, groove_friction, rail_friction);
         let (reversal, slider) = (&mut design.reversal, &mut design.slider);

@@ -68,7 +68,10 @@ pub fn machine_figures(composed: &Machine) -> Vec<Table> {
     let made = Made::new(composed);
     let loaded = made.loaded().and_then(|loaded| loaded.as_ref().ok());
     let words = composed.figure_words().into_iter();
+    let mut words: Vec<String> = words.collect();
+    words.sort_by_cached_key(|words| composed.place_in_file(words));
     let (words, figures): (Vec<String>, Vec<MachineFigure>) = words
+        .into_iter()
         .filter_map(|words| {
             let figure = composed.figure("", &words).ok()?;
             Some((words, figure))

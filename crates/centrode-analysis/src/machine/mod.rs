@@ -123,8 +123,24 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
         not_designed(made, &mut report);
     }
     add_goals(made, &mut report);
+    in_file_order(composed, &mut report);
     report.worst_first();
     report
+}
+
+/// Puts tables with a row for each part, and findings of one rule, in the order of the design file.
+fn in_file_order(composed: &Machine, report: &mut Report) {
+    for table in &mut report.tables {
+        table
+            .rows
+            .sort_by_key(|(name, _)| composed.place_in_file(name));
+    }
+    let rules: Vec<&str> = report.findings.iter().map(|found| found.rule).collect();
+    report.findings.sort_by_cached_key(|found| {
+        let rule = rules.iter().position(|rule| *rule == found.rule);
+        let part = found.place.part.as_deref().unwrap_or_default();
+        (rule, composed.place_in_file(part))
+    });
 }
 
 /// Adds a note on the parts that the design leaves to the customer.

@@ -1,7 +1,5 @@
 //! A composed machine as the design file gives it.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,26 +40,26 @@ pub struct MachineDesign {
     #[serde(default)]
     pub frame: MachinePointsSpec,
     /// Bodies by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub bodies: BTreeMap<String, MachineBodySpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub bodies: Named<MachineBodySpec>,
     /// Dyads by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub dyads: BTreeMap<String, MachineDyadSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub dyads: Named<MachineDyadSpec>,
     /// Gear pairs by name, each as in family gear-pair.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub pairs: BTreeMap<String, GearPairDesign>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub pairs: Named<GearPairDesign>,
     /// Gears by name, each of a pair and on a body.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub gears: BTreeMap<String, MachineGearSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub gears: Named<MachineGearSpec>,
     /// Meshes by name, next to those that hold bodies.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub meshes: BTreeMap<String, MachineLoopSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub meshes: Named<MachineLoopSpec>,
     /// Disc cams by name, each on a body.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub cams: BTreeMap<String, MachineCamSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub cams: Named<MachineCamSpec>,
     /// Chains of bodies of which there are several, evenly spaced, by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub copies: BTreeMap<String, MachineCopiesSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub copies: Named<MachineCopiesSpec>,
     /// Plates, pins and shafts: `full` designs them, `none` does not; default `full` if `plates` or a body describes them,
     /// otherwise `none`.
     pub hardware: Option<Hardware>,
@@ -74,11 +72,11 @@ pub struct MachineDesign {
     /// Acceleration of free fall, m/s²: x and y; default: there is no weight.
     pub gravity: Option<[f64; 2]>,
     /// Loads by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub loads: BTreeMap<String, MachineLoadSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub loads: Named<MachineLoadSpec>,
     /// Obstacles by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub obstacles: BTreeMap<String, MachineObstacleSpec>,
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub obstacles: Named<MachineObstacleSpec>,
     /// Goals by name.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub goals: Named<MachineGoalSpec>,
@@ -154,6 +152,26 @@ impl MachineDesign {
         let copies = self.copies.values();
         let copied = copies.map(|c| c.bodies.len() * c.count.saturating_sub(1) as usize);
         self.bodies.len() + 2 * self.dyads.len() + copied.sum::<usize>()
+    }
+
+    /// Sorts all parts by their names.
+    pub(super) fn sort_parts(&mut self) {
+        let bodies = self.bodies.values_mut();
+        let of_bodies = bodies.map(|body| (&mut body.points, &mut body.corners));
+        let of_frame = (&mut self.frame.points, &mut self.frame.corners);
+        for (points, corners) in of_bodies.chain([of_frame]) {
+            points.sort_unstable_keys();
+            corners.sort_unstable_keys();
+        }
+        self.bodies.sort_unstable_keys();
+        self.dyads.sort_unstable_keys();
+        self.pairs.sort_unstable_keys();
+        self.gears.sort_unstable_keys();
+        self.meshes.sort_unstable_keys();
+        self.cams.sort_unstable_keys();
+        self.copies.sort_unstable_keys();
+        self.loads.sort_unstable_keys();
+        self.obstacles.sort_unstable_keys();
     }
 
     /// Checks the rules that need no geometry.

@@ -223,6 +223,45 @@ impl Machine {
         self.expansion.original(name)
     }
 
+    /// Place of a part in the design file, for lists in its order: body by body, each with its points, then dyads and all other
+    /// parts. The name may be that of a part, a copy, a point of a body, or a figure with a name in brackets.
+    #[must_use]
+    pub fn place_in_file(&self, name: &str) -> [usize; 2] {
+        let name = name.split_once('(').map_or(name, |(_, inside)| inside);
+        let name = name.trim_end_matches(')');
+        let (part, point) = name.split_once('.').unwrap_or((name, ""));
+        let part = self.original(part);
+        let written = &self.written;
+        let mut at = 0;
+        let mut find = |position: Option<usize>, count: usize| {
+            let place = position.map(|position| at + position);
+            at += count;
+            place
+        };
+        let dyads = written.dyads.values().flat_map(|dyad| &dyad.bodies);
+        let places = [
+            find((part == design::FRAME).then_some(0), 1),
+            find(written.bodies.get_index_of(part), written.bodies.len()),
+            find(dyads.clone().position(|body| body == part), dyads.count()),
+            find(written.dyads.get_index_of(part), written.dyads.len()),
+            find(written.gears.get_index_of(part), written.gears.len()),
+            find(written.cams.get_index_of(part), written.cams.len()),
+            find(written.pairs.get_index_of(part), written.pairs.len()),
+            find(
+                written.obstacles.get_index_of(part),
+                written.obstacles.len(),
+            ),
+        ];
+        let points = match part {
+            design::FRAME => written.frame.points.get_index_of(point),
+            _ => written
+                .bodies
+                .get(part)
+                .and_then(|body| body.points.get_index_of(point)),
+        };
+        [places.into_iter().flatten().next(), points].map(|place| place.unwrap_or(usize::MAX))
+    }
+
     /// The machine as a linkage.
     #[must_use]
     pub fn linkage(&self) -> &Linkage {

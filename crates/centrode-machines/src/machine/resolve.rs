@@ -51,11 +51,14 @@ impl Machine {
     /// [`MachineError`] with the key at fault.
     pub fn resolve(design: &MachineDesign) -> Result<Self, MachineError> {
         design.validate()?;
+        // The order of a file is for readers: it must not move a plate to another layer.
+        let mut sorted = design.clone();
+        sorted.sort_parts();
         if !design.copies.is_empty() {
-            return Self::with_copies(design);
+            return Self::with_copies(&sorted, design);
         }
         let none = Expansion::default();
-        let mut builder = Builder::assembled(design, &none, None)?;
+        let mut builder = Builder::assembled(&sorted, &none, None)?;
         builder.cut_cams()?;
         builder.finished(design)
     }

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::io::Write;
 
 use crate::analysis::{MAX_TEETH, Report};
@@ -38,9 +39,9 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
             ..Report::default()
         };
         if command.json {
-            out.write_all(report::json(&report)?.as_bytes())?;
+            out.write_all(report::json(&report, mechanism.design())?.as_bytes())?;
         } else {
-            report::write_figures(&report, out)?;
+            report::write_figures(&report, &BTreeMap::new(), out)?;
         }
         return Ok(Status::Good);
     }
@@ -57,7 +58,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
     }
     drop(progress);
     if command.json {
-        out.write_all(report::json(&report)?.as_bytes())?;
+        out.write_all(report::json(&report, mechanism.design())?.as_bytes())?;
     } else {
         report::write(mechanism.as_ref(), &report, out)?;
     }

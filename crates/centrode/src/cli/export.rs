@@ -101,7 +101,10 @@ fn bundle(
     let (formats, options) = (command.formats(), options(command, found));
     let mut bundle = mechanism.files(&formats, &options)?;
     if command.wants(File::Json) {
-        bundle.add("report.json", report::json(found)?.into_bytes())?;
+        bundle.add(
+            "report.json",
+            report::json(found, mechanism.design())?.into_bytes(),
+        )?;
     }
     if bundle.files().next().is_none() {
         let parts = match &command.part[..] {

@@ -6,12 +6,13 @@ use std::io::Write;
 
 use crate::analysis::{Report, ReportFile};
 use crate::family::Mechanism;
+use centrode_spec::Design;
 
 pub(crate) use figures::write as write_figures;
 
 /// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
-pub(crate) fn json(report: &Report) -> std::io::Result<String> {
-    let mut text = serde_json::to_string_pretty(&ReportFile::new(report))?;
+pub(crate) fn json(report: &Report, design: &dyn Design) -> std::io::Result<String> {
+    let mut text = serde_json::to_string_pretty(&ReportFile::new(report, design))?;
     text.push('\n');
     Ok(text)
 }
@@ -30,5 +31,5 @@ pub(crate) fn write(
     writeln!(out)?;
     findings::write(report, out)?;
     goals::write(report, out)?;
-    figures::write(report, out)
+    figures::write(report, &report.given(design), out)
 }

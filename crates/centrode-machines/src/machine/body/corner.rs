@@ -1,12 +1,11 @@
 //! Points of a body as the design file gives them.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::machine::body::contour::Drawn;
 use crate::machine::{MachineCircleSpec, MachineCornerSpec};
+use centrode_spec::Named;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, finite, part_name, positive};
 
@@ -15,11 +14,11 @@ use centrode_spec::rule::{Rule, broken, finite, part_name, positive};
 #[serde(default, deny_unknown_fields)]
 pub struct MachinePointsSpec {
     /// Points by name: x and y in the body's axes, mm.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub points: BTreeMap<String, [f64; 2]>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub points: Named<[f64; 2]>,
     /// Points by name, each the third corner of a triangle.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub corners: BTreeMap<String, CornerSpec>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub corners: Named<CornerSpec>,
     /// Contour of its plate: corners in order, x and y, mm, each with an optional bulge of the side that begins there.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
@@ -106,8 +105,8 @@ impl MachinePointsSpec {
 
 /// Checks the names and numbers of a body's points.
 pub(in crate::machine) fn points(
-    points: &BTreeMap<String, [f64; 2]>,
-    corners: &BTreeMap<String, CornerSpec>,
+    points: &Named<[f64; 2]>,
+    corners: &Named<CornerSpec>,
 ) -> Result<(), SpecError> {
     for (name, at) in points {
         let key = format!("points.{name}");

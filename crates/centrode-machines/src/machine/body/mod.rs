@@ -5,8 +5,6 @@ pub(super) mod corner;
 pub(super) mod given_mass;
 pub(super) mod points;
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +15,7 @@ use crate::machine::hardware::plates::LAYERS;
 use crate::machine::{
     CornerSpec, MachineCircleSpec, MachineCornerSpec, MachineLawSpec, MachineMeshSpec,
 };
+use centrode_spec::Named;
 use centrode_spec::rule::{Rule, broken, finite, in_range, positive};
 use centrode_spec::{SpecError, degrees};
 
@@ -63,11 +62,11 @@ pub struct MachineBodySpec {
     /// Mesh that turns it on its carrier, and places it there.
     pub mesh: Option<MachineMeshSpec>,
     /// Points by name: x and y in the body's axes, mm.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub points: BTreeMap<String, [f64; 2]>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub points: Named<[f64; 2]>,
     /// Points by name, each the third corner of a triangle.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub corners: BTreeMap<String, CornerSpec>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub corners: Named<CornerSpec>,
 }
 
 impl MachineBodySpec {

@@ -1,4 +1,5 @@
-use std::collections::{BTreeMap, BTreeSet};
+use centrode_spec::Named;
+use std::collections::BTreeSet;
 
 use centrode_geometry::{Point, Vector};
 use nalgebra::Rotation2;
@@ -20,7 +21,7 @@ pub(in crate::machine) const ROLLER: &str = "roller";
 pub(in crate::machine) const FACE: &str = "face";
 
 /// Points of every body by name.
-pub(in crate::machine) type BodyPoints = BTreeMap<String, BTreeMap<String, LocalPoint>>;
+pub(in crate::machine) type BodyPoints = Named<Named<LocalPoint>>;
 
 /// A point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,7 +140,7 @@ pub(in crate::machine) fn points_of(
     expansion: &Expansion,
 ) -> Result<BodyPoints, MachineError> {
     let mut all = BodyPoints::new();
-    all.insert(FRAME.into(), BTreeMap::new());
+    all.insert(FRAME.into(), Named::new());
     for (name, body) in &design.bodies {
         all.entry(name.clone()).or_default();
         if let (Some(on), None, None) = (&body.on, body.slides, &body.mesh) {
@@ -274,7 +275,7 @@ fn add(
 fn place_corners(
     key: &str,
     body: &str,
-    corners: &BTreeMap<String, CornerSpec>,
+    corners: &Named<CornerSpec>,
     all: &mut BodyPoints,
 ) -> Result<(), MachineError> {
     let mut left: Vec<(&String, &CornerSpec)> = corners.iter().collect();

@@ -1,6 +1,5 @@
 //! Machines with copies: built from the design with its copies written out, and compared with the originals.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -51,13 +50,17 @@ pub(in crate::machine) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn 
 }
 
 impl Machine {
-    /// Resolves a design with copies: first the design without them, then the one with the copies written out.
-    pub(in crate::machine) fn with_copies(design: &MachineDesign) -> Result<Self, MachineError> {
+    /// Resolves a design with copies: first the design without them, then the one with the copies written out. `written` is the
+    /// design with its parts in the order of its file.
+    pub(in crate::machine) fn with_copies(
+        design: &MachineDesign,
+        written: &MachineDesign,
+    ) -> Result<Self, MachineError> {
         let bare = MachineDesign {
-            copies: BTreeMap::new(),
+            copies: Named::new(),
             // These tables may name copies.
-            loads: BTreeMap::new(),
-            obstacles: BTreeMap::new(),
+            loads: Named::new(),
+            obstacles: Named::new(),
             goals: Named::new(),
             vary: Named::new(),
             ..design.clone()
@@ -78,6 +81,7 @@ impl Machine {
             copies::add(&mut whole, &mut expansion, &one.points, name, spin)
         };
         let added = design.copies.iter().try_for_each(add);
+        whole.sort_parts();
         let cut = || {
             if !cut_before {
                 first.cut_cams()?;
@@ -93,7 +97,7 @@ impl Machine {
         let (one, made) = run_both(cut, copied);
         let (one, mut made) = (one?, made?);
         made.bare = Some(&one);
-        let made = made.cut_cams().and_then(|()| made.finished(design));
+        let made = made.cut_cams().and_then(|()| made.finished(written));
         let made = made.map_err(|error| of_copy(error, &expansion))?;
         for (name, spec) in &design.copies {
             made.check_copies(&format!("copies.{name}"), spec)?;

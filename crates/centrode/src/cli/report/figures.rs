@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::io::{Result, Write};
 
 use crate::analysis::Report;
@@ -9,8 +10,13 @@ pub(super) const HEADING: Style = Style::new().bold();
 const NAME: usize = 32;
 const COLUMN: usize = 12;
 
-/// Writes every table, then every figure in its group; figures without a group come last, with every digit.
-pub(crate) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
+/// Writes every table, then every figure in its group; figures without a group come last, with every digit. Figures in `given` are
+/// marked as given by the design, or as found though the design may give them.
+pub(crate) fn write(
+    report: &Report,
+    given: &BTreeMap<&str, bool>,
+    out: &mut impl Write,
+) -> Result<()> {
     for section in sections(report) {
         let width = if section.columns.is_empty() { 0 } else { NAME };
         write!(out, "\n{HEADING}{:width$}{HEADING:#}", section.heading)?;
@@ -25,7 +31,17 @@ pub(crate) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
                 write!(out, "  {shown:>COLUMN$}")?;
             }
             let gap = if line.unit.is_empty() { "" } else { "  " };
-            writeln!(out, "{gap}{}", line.unit)?;
+            let cells = line.cells.iter().flatten();
+            let mut marks: Vec<bool> = cells
+                .filter_map(|cell| given.get(&*cell.key).copied())
+                .collect();
+            marks.dedup();
+            let mark = match marks[..] {
+                [true] => "  (given)",
+                [false] => "  (found)",
+                _ => "",
+            };
+            writeln!(out, "{gap}{}{mark}", line.unit)?;
         }
     }
     Ok(())
@@ -51,12 +67,12 @@ mod tests {
         report.values.insert("module", 2.25);
         report.values.insert("unheard_of", 0.5);
         let mut out = Vec::new();
-        write(&report, &mut out).expect("written");
+        write(&report, &BTreeMap::from([("module", true)]), &mut out).expect("written");
         let text = String::from_utf8(out).expect("text");
         assert!(
             text.contains("More") && text.contains("unheard_of"),
             "{text}"
         );
-        assert!(text.contains("2.2500  mm"), "{text}");
+        assert!(text.contains("2.2500  mm  (given)"), "{text}");
     }
 }
