@@ -130,10 +130,18 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
 
 /// Puts tables with a row for each part, and findings of one rule, in the order of the design file.
 fn in_file_order(composed: &Machine, report: &mut Report) {
+    // A dyad may have the name of a body.
+    let dyad = |name: &str| {
+        let dyads = &composed.design().dyads;
+        dyads.get_index_of(composed.original(name))
+    };
     for table in &mut report.tables {
-        table
-            .rows
-            .sort_by_key(|(name, _)| composed.place_in_file(name));
+        let rows = &mut table.rows;
+        if rows.iter().all(|(name, _)| dyad(name).is_some()) {
+            rows.sort_by_key(|(name, _)| dyad(name));
+        } else {
+            rows.sort_by_key(|(name, _)| composed.place_in_file(name));
+        }
     }
     let rules: Vec<&str> = report.findings.iter().map(|found| found.rule).collect();
     report.findings.sort_by_cached_key(|found| {
