@@ -74,6 +74,9 @@ pub enum DesignFault {
     /// A value outside its range, or in conflict with another key.
     #[error("{0}")]
     Value(Rule),
+    /// A file with samples that cannot be read, with its line.
+    #[error("{0}")]
+    File(String),
     /// The mechanism is not possible: the error that states why.
     #[error("{0}")]
     Mechanism(#[source] Box<dyn error::Error + Send + Sync>),

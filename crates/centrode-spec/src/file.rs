@@ -1,9 +1,11 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use toml::de::DeTable;
 
 use super::keys::{Keys, line_and_column};
 use super::reader::Reader;
+use super::sample_file::{self, OpenFile, SampleTable};
 use super::{Design, DesignError, DesignFamily, DesignFault, MechanismError};
 
 /// Maximum number of mistakes of a file that are reported at once: ten times more would hide the first.
@@ -38,6 +40,21 @@ impl DesignFile {
             keys: reader.into_keys(),
         };
         Ok((file, family))
+    }
+
+    /// Text of a design file with the samples of the files that it names instead of their names, on the same lines. `open` reads
+    /// a file by its name in the design.
+    ///
+    /// A text that is not TOML is returned as it is: reading it gives the error.
+    ///
+    /// # Errors
+    /// [`DesignError`] at the key `file` or `column`, with the line of the file.
+    pub fn with_files<'t>(
+        text: &'t str,
+        tables: &[SampleTable],
+        open: OpenFile<'_>,
+    ) -> Result<Cow<'t, str>, DesignError> {
+        sample_file::with_files(text, tables, open)
     }
 
     /// Mistakes of a design file, ten at most. To find the next one, a wrong word or key is replaced by the nearest known one, and

@@ -3,6 +3,7 @@
 //! The crate has keys and their paths, rules for the values of numbers, errors with line and remedy, drawings, and the
 //! schema. It knows no gear and no machine: a family adds its keys by [`DesignSpec`].
 
+mod csv;
 mod cut;
 pub mod degrees;
 pub mod digits;
@@ -17,10 +18,12 @@ mod number;
 mod path;
 mod reader;
 pub mod rule;
+mod sample_file;
 mod schema;
 mod text;
 mod word;
 
+pub use csv::{CsvLine, NotNumber, csv_lines};
 pub use cut::CutSpec;
 pub use digits::shortened;
 pub use drawing::{DrawingSpec, Projection, SheetSize};
@@ -31,5 +34,6 @@ pub use given::Given;
 pub use goals::{FigureGoalSpec, Named};
 pub use number::{NumberedDesign, numbers_of};
 pub use rule::{Rule, SpecError};
+pub use sample_file::{Column, OpenFile, SampleTable};
 pub use schema::json_schema;
 pub use text::{is_control, visible};

@@ -5,7 +5,7 @@ use super::family::{DesignFamily, DesignSpec};
 use super::fault::nearest;
 use super::keys::{Keys, inside, line_and_column};
 use super::number::written;
-use super::{DesignError, DesignFault};
+use super::{DesignError, DesignFault, sample_file};
 use crate::SpecError;
 
 /// Keys of earlier versions, and their present names in another table.
@@ -37,6 +37,7 @@ impl<'a> Reader<'a> {
         families: &'f [F],
     ) -> Result<(Spanned<DeTable<'a>>, &'f F), DesignError> {
         let mut root = DeTable::parse(self.text).map_err(|e| self.syntax(&e))?;
+        sample_file::spread(root.get_mut());
         self.keys = Keys::new(root.get_ref());
         if root.get_ref().is_empty() {
             let example = families.first().map_or("", |family| family.as_ref().word);

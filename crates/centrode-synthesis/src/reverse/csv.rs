@@ -1,6 +1,7 @@
 //! Points and poses read from CSV files.
 
 use centrode_geometry::Point;
+use centrode_spec::{CsvLine, csv_lines};
 
 use super::path::text;
 use super::{PathError, RequiredDirection};
@@ -82,29 +83,14 @@ struct Table<'a> {
     layout: &'static Layout,
     /// Position in a line of each column of the layout.
     columns: Vec<Option<usize>>,
-    lines: Vec<Line<'a>>,
-}
-
-/// A line that is not a comment, with its number.
-struct Line<'a> {
-    number: usize,
-    words: Vec<&'a str>,
-    decimal: char,
+    lines: Vec<CsvLine<'a>>,
 }
 
 impl<'a> Table<'a> {
     fn read(bytes: &'a [u8], layout: &'static Layout) -> Result<Self, PathError> {
-        let text = text(bytes)?;
-        // Old programs end a line by a carriage return alone.
-        let end = if text.contains('\n') { '\n' } else { '\r' };
-        let lines = text.split(end).enumerate();
-        let lines = lines.map(|(i, line)| (i + 1, line.trim()));
-        let written = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let mut lines: Vec<Line<'_>> = written.map(|(i, line)| Line::new(i, line)).collect();
-        let is_heading =
-            |line: &Line<'_>| (0..2.min(line.words.len())).any(|k| line.number_at(k).is_err());
+        let mut lines = csv_lines(text(bytes)?);
         let columns = match lines.first() {
-            Some(first) if is_heading(first) => layout.columns(&lines.remove(0))?,
+            Some(first) if first.is_heading() => layout.columns(&lines.remove(0))?,
             _ => (0..layout.headings.len())
                 .map(|k| (k < layout.needed).then_some(k))
                 .collect(),
@@ -119,7 +105,7 @@ impl<'a> Table<'a> {
     }
 
     /// Refuses a line that has too few values, or a value in a column without a name.
-    fn check(&self, line: &Line<'_>) -> Result<(), PathError> {
+    fn check(&self, line: &CsvLine<'_>) -> Result<(), PathError> {
         let needed = &self.columns[..self.layout.needed];
         let is_short = needed.iter().flatten().any(|k| *k >= line.words.len());
         if is_short {
@@ -139,7 +125,7 @@ impl<'a> Table<'a> {
 
     /// The needed numbers of every line.
     fn rows<const N: usize>(&self) -> Result<Vec<[f64; N]>, PathError> {
-        let row = |line: &Line<'_>| {
+        let row = |line: &CsvLine<'_>| {
             let mut row = [0.0; N];
             for (value, column) in row.iter_mut().zip(self.columns.iter().flatten()) {
                 *value = line.number_at(*column)?;
@@ -152,7 +138,7 @@ impl<'a> Table<'a> {
     /// Tolerances of every line.
     fn tolerances(&self, column: usize) -> Result<Vec<f64>, PathError> {
         let lines = self.lines.iter();
-        lines.map(|line| line.tolerance(column)).collect()
+        lines.map(|line| tolerance(line, column)).collect()
     }
 
     /// Directions at those lines that have one.
@@ -163,9 +149,9 @@ impl<'a> Table<'a> {
     ) -> Result<Vec<RequiredDirection>, PathError> {
         let lines = self.lines.iter().enumerate();
         let given = lines.filter(|(_, line)| line.words.get(column).is_some_and(|w| !w.is_empty()));
-        let direction = |(i, line): (usize, &Line<'_>)| {
+        let direction = |(i, line): (usize, &CsvLine<'_>)| {
             let tolerance = match off {
-                Some(off) => line.tolerance(off)?.to_radians(),
+                Some(off) => tolerance(line, off)?.to_radians(),
                 None => RequiredDirection::usual_tolerance(),
             };
             Ok(RequiredDirection {
@@ -180,7 +166,7 @@ impl<'a> Table<'a> {
 
 impl Layout {
     /// Position in a line of each column, read from the line of headings.
-    fn columns(&self, line: &Line<'_>) -> Result<Vec<Option<usize>>, PathError> {
+    fn columns(&self, line: &CsvLine<'_>) -> Result<Vec<Option<usize>>, PathError> {
         let refused = |fault: String| {
             let known: Vec<&str> = self.headings.iter().map(|names| names[0]).collect();
             Err(PathError::Headings {
@@ -191,7 +177,7 @@ impl Layout {
         };
         let mut columns = vec![None; self.headings.len()];
         for (position, word) in line.words.iter().enumerate() {
-            let name = word.trim_matches('"').trim().to_lowercase();
+            let name = line.heading(position);
             if name.is_empty() {
                 continue;
             }
@@ -214,38 +200,14 @@ impl Layout {
     }
 }
 
-impl<'a> Line<'a> {
-    fn new(number: usize, line: &'a str) -> Self {
-        // Spreadsheets that write a decimal comma separate columns by semicolons or tabs.
-        let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
-            true => (&[';', '\t'], ','),
-            false => (&[','], '.'),
-        };
-        Self {
-            number,
-            words: line.split(separators).map(str::trim).collect(),
-            decimal,
-        }
-    }
-
-    fn number_at(&self, column: usize) -> Result<f64, PathError> {
-        let word = self.words.get(column).copied().unwrap_or_default();
-        let read = word.replace(self.decimal, ".").parse::<f64>();
-        read.map_err(|_| PathError::NotNumber {
-            line: self.number,
-            found: word.chars().take(40).collect(),
-        })
-    }
-
-    /// A number that is zero or more.
-    fn tolerance(&self, column: usize) -> Result<f64, PathError> {
-        let value = self.number_at(column)?;
-        match value >= 0.0 && value.is_finite() {
-            true => Ok(value),
-            false => Err(PathError::Tolerance {
-                line: self.number,
-                value,
-            }),
-        }
+/// A number that is zero or more.
+fn tolerance(line: &CsvLine<'_>, column: usize) -> Result<f64, PathError> {
+    let value = line.number_at(column)?;
+    match value >= 0.0 && value.is_finite() {
+        true => Ok(value),
+        false => Err(PathError::Tolerance {
+            line: line.number,
+            value,
+        }),
     }
 }

@@ -2,6 +2,7 @@ use centrode_geometry::Point;
 use thiserror::Error;
 
 use super::DrawingError;
+use centrode_spec::NotNumber;
 use centrode_spec::digits::stated;
 
 /// Reason why points or a file give no path.
@@ -231,6 +232,12 @@ pub enum AxisFault {
         /// Position on the path, mm.
         at: Point,
     },
+}
+
+impl From<NotNumber> for PathError {
+    fn from(NotNumber { line, found }: NotNumber) -> Self {
+        Self::NotNumber { line, found }
+    }
 }
 
 impl AxisFault {
