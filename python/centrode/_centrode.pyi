@@ -91,6 +91,7 @@ _Real: TypeAlias = float | SupportsFloat
 _Depth: TypeAlias = Literal["motion", "made", "whole"]
 _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
+_Smooth: TypeAlias = Mapping[str, _Real]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
 _Receiver: TypeAlias = Literal["all", "laser", "print", "cad", "drawing", "simulation"]
 _Format: TypeAlias = Literal["dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
@@ -962,6 +963,7 @@ def polar(
     *,
     angle: ArrayLike | None = None,
     interpolation: _Interpolation | None = None,
+    smooth: _Smooth | None = None,
     mean: _Real | None = None,
     cos: ArrayLike | None = None,
     sin: ArrayLike | None = None,
@@ -972,7 +974,9 @@ def polar(
 def from_transmission(
     driven_angle: str | ArrayLike,
     *,
+    angle: ArrayLike | None = None,
     interpolation: _Interpolation | None = None,
+    smooth: _Smooth | None = None,
     center_distance: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
@@ -981,7 +985,9 @@ def from_transmission(
 def from_ratio(
     ratio: str | ArrayLike,
     *,
+    angle: ArrayLike | None = None,
     interpolation: _Interpolation | None = None,
+    smooth: _Smooth | None = None,
     center_distance: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
@@ -997,7 +1003,7 @@ def conjugate(
 ) -> Pitch: ...
 def template(family: str = "gear-pair") -> str: ...
 def _drawn_path(contents: bytes, within: float) -> NDArray[float64]: ...
-def _load(contents: bytes) -> Mechanism: ...
+def _load(contents: bytes, folder: str | None = None) -> Mechanism: ...
 def _pitch_from_toml(text: str) -> Pitch: ...
 def _write(path: str | PathLike[str], contents: bytes) -> Path: ...
 def _panic(by: str) -> None: ...

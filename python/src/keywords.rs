@@ -1,11 +1,12 @@
 //! Keywords of a call, read into the tables of a spec: their types and defaults are those of its fields.
 
 use centrode_gear::design::BodySpec;
+use centrode_gear::pitch::{Smooth, SmoothAngle};
 use centrode_kinematics::machine::Keyway as KeywaySpec;
 use centrode_spec::{DrawingSpec as Drawing, FigureGoalSpec, Named};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyErr, PyResult, Python};
-use pyo3::types::{PyDict, PyDictMethods};
+use pyo3::types::{PyDict, PyDictMethods, PyMapping};
 
 use crate::array::Numbers;
 use crate::body::{Body, Keyway};
@@ -96,6 +97,27 @@ impl Field for Vec<f64> {
         Ok(object.extract::<Numbers>()?.into_vec())
     }
 }
+
+/// Smoothings, as dictionaries of their keys.
+macro_rules! smoothings {
+    ($($smooth:ident),*) => {
+        $(impl Field for $smooth {
+            fn read(_key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {
+                let keys = PyDict::new(object.py());
+                keys.update(object.cast::<PyMapping>().map_err(PyErr::from)?)?;
+                let call = Call::new("smooth", Some(keys));
+                let smooth = Self {
+                    harmonics: call.optional("harmonics", "pitch.smooth.harmonics")?,
+                    tolerance: call.optional("tolerance", "pitch.smooth.tolerance")?,
+                };
+                call.end()?;
+                Ok(smooth)
+            }
+        })*
+    };
+}
+
+smoothings!(Smooth, SmoothAngle);
 
 impl<W: Word> Field for W {
     fn read(key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {

@@ -253,7 +253,8 @@ fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny
         teeth: PyTuple::new(py, &finding.place.teeth)?,
         flanks: tuple(py, flanks)?,
     )?;
-    record!(py, "centrode._report" "Finding", finding => [rule, measured, required, remedy]
+    record!(py, "centrode._report" "Finding", finding => [rule, measured, required]
+        remedy: finding.remedy.as_deref(),
         unit: finding.unit.symbol(),
         severity: severity,
         message: finding.message.as_str(),

@@ -300,8 +300,18 @@ EXEMPT = {
     },
     "docs/theory/pitch-curves.md": {
         "definition of the inch": (r"25\.4 mm / P",),
-        LIMIT: (r"more than 16 times", r"needs 16 samples", r"below 0\.23 deg"),
+        LIMIT: (
+            r"more than 16 times",
+            r"needs 16 samples",
+            r"below 0\.23 deg",
+            r"At least 32 samples",
+            r"probability of 99 %",
+        ),
         FORMULA: (
+            r"a q/\(1 \+ q\)",
+            r"q \(1 \+ q\)",
+            r"power 4&sigma;<sup>2</sup>",
+            r"curvature, 2&sigma;<sup>2</sup>",
             r"is 1/2, as",
             r"i = 1/&phi;",
             r"a/\(1 \+ i\)",

@@ -64,7 +64,7 @@ pub struct Finding {
     pub unit: Unit,
     /// Usual remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub remedy: Option<&'static str>,
+    pub remedy: Option<Cow<'static, str>>,
     /// Position at which it was found.
     pub place: Place,
 }
@@ -105,7 +105,7 @@ impl Finding {
     #[must_use]
     pub fn remedy(self, remedy: impl Into<Option<&'static str>>) -> Self {
         Self {
-            remedy: remedy.into(),
+            remedy: remedy.into().map(Cow::Borrowed),
             ..self
         }
     }
@@ -320,7 +320,7 @@ impl Report {
                     [_, maximum] => maximum,
                 },
                 unit: *unit,
-                remedy,
+                remedy: remedy.map(Cow::Borrowed),
                 place: Place {
                     input,
                     ..Place::default()

@@ -53,8 +53,9 @@ impl Severity {
 }
 
 /// Rules whose findings cause others, each before the rules of its consequences. All other rules come last.
-const CAUSES: [&str; 25] = [
+const CAUSES: [&str; 26] = [
     "detail",
+    "noisy-law",
     "pitch-curves-overlap",
     "pitch-curve-corner",
     "shaper-radius",

@@ -16,7 +16,8 @@ pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle
             (HandlePlane::Polar, &s.radius, &s.angle)
         }
         PitchSpec::Bezier(s) => (HandlePlane::Cartesian, &s.x, &s.y),
-        PitchSpec::Polar(s) => (HandlePlane::Polar, &s.radius, &s.angle),
+        // A smoothed curve does not go through its radii.
+        PitchSpec::Polar(s) if s.smooth.is_none() => (HandlePlane::Polar, &s.radius, &s.angle),
         _ => return Vec::new(),
     };
     if first.len() > MAX_HANDLES {

@@ -1,6 +1,7 @@
 //! One function a kind of pitch curve: keywords as in the design file, angles in radians.
 
 use centrode_gear::pitch as spec;
+use centrode_spec::Column;
 use pyo3::prelude::{Borrowed, Bound, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfunction};
 use pyo3::types::PyDict;
 
@@ -40,6 +41,9 @@ impl Law {
         }
     }
 }
+
+/// File and column of samples that are arrays.
+const NO_FILE: (Option<String>, Option<Column>) = (None, None);
 
 /// Resolves the curve of a kind from keys that are known and those from keywords; without the former all may be absent.
 macro_rules! curve {
@@ -162,8 +166,9 @@ pub(crate) fn limacon(
 /// Args:
 ///     radius: A formula, or radii, mm, at equal steps from the angle zero, or at the angles `angle`.
 ///     angle: Polar angles of the radii, rad, increasing within one turn.
-///     interpolation: Interpolation between the radii: "quintic" for equal steps, "cubic" with `angle`, or
-///         "trigonometric".
+///     interpolation: Interpolation between the radii: "quintic" for equal steps, "cubic" for others, or "trigonometric".
+///     smooth: Smoothing of the radii by a Fourier series: ``{"harmonics": 12}``, the highest one, or ``{"tolerance": 0.1}``,
+///         the maximum distance from the radii, mm.
 ///     mean: Mean radius of a Fourier series, mm.
 ///     cos: Cosine coefficients from the first harmonic, mm.
 ///     sin: Sine coefficients from the first harmonic, mm.
@@ -177,19 +182,23 @@ pub(crate) fn limacon(
 /// >>> ct.pitch.polar(mean=20, cos=[0, 2]).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (radius=None, **keywords), text_signature = "(radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None, diametral_pitch=None)")]
+#[pyo3(signature = (radius=None, **keywords), text_signature = "(radius=None, *, angle=None, interpolation=None, smooth=None, mean=None, cos=None, sin=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn polar(radius: Option<Law>, keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
     let (expression, radius) = Law::parts(radius);
-    curve!("polar", keywords, Polar { expression, radius }:
-        angle, interpolation, mean, cos, sin, module, tooth_count, diametral_pitch)
+    let (file, column) = NO_FILE;
+    curve!("polar", keywords, Polar { expression, radius, file, column }:
+        angle, interpolation, smooth, mean, cos, sin, module, tooth_count, diametral_pitch)
 }
 
 /// The curve that turns the driven gear by a given law, which is a formula in ``phi`` or samples over one driver turn.
 ///
 /// Args:
 ///     driven_angle: Driven angle, rad, as a formula in the driver angle ``phi`` (rad), or as samples at equal steps of
-///         one driver turn, including both ends.
-///     interpolation: Interpolation between the samples; default: "quintic".
+///         one driver turn, with or without the end of the turn.
+///     angle: Driver angles of the samples, rad, increasing within one turn.
+///     interpolation: Interpolation between the samples; default: "quintic" for equal steps, "cubic" for others.
+///     smooth: Smoothing of the samples by a Fourier series: ``{"harmonics": 12}``, the highest one, or
+///         ``{"tolerance": 0.001}``, the maximum distance from the samples, rad.
 ///     center_distance: Centre distance, mm; or give `module` and `tooth_count`.
 ///     module: Module, mm.
 ///     tooth_count: Number of teeth.
@@ -200,30 +209,42 @@ pub(crate) fn polar(radius: Option<Law>, keywords: Option<Bound<'_, PyDict>>) ->
 /// >>> pitch.implied_ratio
 /// (2, 1)
 #[pyfunction]
-#[pyo3(signature = (driven_angle, **keywords), text_signature = "(driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
+#[pyo3(signature = (driven_angle, **keywords), text_signature = "(driven_angle, *, angle=None, interpolation=None, smooth=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn from_transmission(
     driven_angle: Law,
     keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
     let (expression, driven_angle) = Law::parts(Some(driven_angle));
-    curve!("from_transmission", keywords, Transmission { expression, driven_angle }:
-        interpolation, center_distance, module, tooth_count, diametral_pitch)
+    let (file, column) = NO_FILE;
+    curve!("from_transmission", keywords, Transmission { expression, driven_angle, file, column }:
+        angle, interpolation, smooth, center_distance, module, tooth_count, diametral_pitch)
 }
 
 /// The curve with a given ratio d driven / d driver, which is a formula in ``phi`` or samples over one driver turn.
 ///
-/// Samples are at equal steps of one driver turn, without the repeated end.
+/// Args:
+///     ratio: A formula, or samples at equal steps of one driver turn, or at the angles `angle`. The last one may repeat the
+///         first, a turn later. A mean near the mean ratio is scaled to it.
+///     angle: Driver angles of the samples, rad, increasing within one turn.
+///     interpolation: Interpolation between the samples; default: "quintic" for equal steps, "cubic" for others.
+///     smooth: Smoothing of the samples by a Fourier series: ``{"harmonics": 12}``, the highest one, or
+///         ``{"tolerance": 0.01}``, the maximum distance from the samples.
+///     center_distance: Centre distance, mm; or give `module` and `tooth_count`.
+///     module: Module, mm.
+///     tooth_count: Number of teeth.
+///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct
 /// >>> pitch = ct.pitch.from_ratio("1 - 0.16*cos(2*phi)", center_distance=60)
 /// >>> pitch.implied_ratio
 /// (1, 1)
 #[pyfunction]
-#[pyo3(signature = (ratio, **keywords), text_signature = "(ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
+#[pyo3(signature = (ratio, **keywords), text_signature = "(ratio, *, angle=None, interpolation=None, smooth=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn from_ratio(ratio: Law, keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
     let (expression, ratio) = Law::parts(Some(ratio));
-    curve!("from_ratio", keywords, Ratio { expression, ratio }:
-        interpolation, center_distance, module, tooth_count, diametral_pitch)
+    let (file, column) = NO_FILE;
+    curve!("from_ratio", keywords, Ratio { expression, ratio, file, column }:
+        angle, interpolation, smooth, center_distance, module, tooth_count, diametral_pitch)
 }
 
 /// The curve that rolls on another curve: the driven curve of one pair, to be the driver of the next pair.

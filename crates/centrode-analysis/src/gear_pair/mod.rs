@@ -4,6 +4,7 @@ mod after_cut;
 mod circular;
 mod figures;
 mod mesh;
+mod of_samples;
 mod pitch_curves;
 mod remedies;
 mod remedy;
@@ -40,6 +41,7 @@ pub const SLIGHT_TRANSMISSION_ERROR: f64 = 2e-5;
 #[must_use]
 pub fn check_planned(pair: &PlannedPair) -> Report {
     let mut report = planned(pair);
+    of_samples::noise(pair, &mut report);
     report.worst_first();
     report
 }
@@ -48,6 +50,7 @@ pub fn check_planned(pair: &PlannedPair) -> Report {
 #[must_use]
 pub fn check_made(pair: &GearPair) -> Report {
     let (mut report, _) = made(pair);
+    of_samples::noise(pair, &mut report);
     report.worst_first();
     report
 }
@@ -84,6 +87,7 @@ fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'
     if let Some(cut) = cut {
         after_cut::mesh_as_cut(&cut, &mut report);
     }
+    of_samples::noise(pair, &mut report);
     report.worst_first();
     report
 }

@@ -4,6 +4,7 @@ use centrode_gear::design::Fit;
 use centrode_gear::{Limits, Member, PlannedPair, ToolKind};
 use centrode_geometry::Extreme;
 
+use super::of_samples;
 use super::remedy::remedy;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
@@ -94,7 +95,8 @@ pub(super) fn pitch_curves(pair: &PlannedPair, limits: &Limits, report: &mut Rep
         }
     }
     report.findings.extend(pitch_overlap(pair));
-    report.findings.extend(sampled_corners(pair));
+    report.findings.extend(of_samples::corners(pair));
+    report.findings.extend(of_samples::scaled_mean(pair));
     let Extreme {
         input,
         value: steepest,
@@ -118,23 +120,6 @@ pub(super) fn pitch_curves(pair: &PlannedPair, limits: &Limits, report: &mut Rep
     report
         .values
         .insert("largest_module", limits.largest_module);
-}
-
-/// The corners of the law that the samples of the pitch curve follow, as findings.
-fn sampled_corners(pair: &PlannedPair) -> impl Iterator<Item = Finding> {
-    pair.rolling().sampled_corners().iter().map(|corner| {
-        let unit = Unit::Angle;
-        let message = format!(
-            "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it off",
-            unit.with_unit(corner.turn.abs()),
-            unit.with_unit(corner.angle)
-        );
-        Finding::new("pitch-curve-corner", Severity::Warning, message)
-            .measured(corner.turn.abs(), 0.0, unit)
-            .remedy(remedy("pitch-curve-corner"))
-            .on(Member::Driver.name())
-            .at(corner.angle)
-    })
 }
 
 /// The overlap of the pitch curves away from the point at which they roll, as a finding; `None` if they only roll.

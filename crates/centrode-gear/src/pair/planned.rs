@@ -61,7 +61,8 @@ impl PlannedPair {
         };
         let module = tools.pitch_length(Member::Driver) / (PI * f64::from(driver));
         design.teeth.thickness_within(0.5 * module)?;
-        follow(tools, driver, module)?;
+        let follows = follow(tools, driver, module);
+        follows.map_err(|error| rolling.sampled().blamed(error))?;
         let planned = |settled: &GearPairDesign| -> Result<Self, GearPairError> {
             let teeth = parameters(settled, module);
             Ok(Self {
@@ -127,8 +128,8 @@ impl PlannedPair {
 
     /// The driver's pitch curve in words, and the pitch curves on which the tools roll.
     fn reference(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
-        let pitch = design.pitch.resolve()?;
         let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
+        let pitch = design.pitch.resolve_for(ratio)?;
         if let Some(implied) = pitch.implied_ratio
             && implied != ratio
         {
@@ -139,7 +140,7 @@ impl PlannedPair {
         }
         let rolling = Rolling::new(pitch.curve, ratio)?
             .with_symmetry(pitch.symmetry)
-            .with_sampled_corners(pitch.corners);
+            .with_samples(pitch.sampled);
         if let Some((turn, angle)) = rolling.corner() {
             return Err(GearPairError::Corner { turn, angle });
         }

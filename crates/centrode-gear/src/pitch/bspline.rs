@@ -6,7 +6,7 @@ use super::error::in_range;
 use super::piecewise::{HIGHEST_DEGREE, PiecewiseCurve, Polynomial};
 use super::points::{Lists, Plane, Points};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, sampled};
+use super::{Draft, PitchError, SampledLaw, sampled};
 use centrode_spec::degrees;
 
 /// A closed uniform B-spline, from control points or through given points.
@@ -118,7 +118,11 @@ impl Bspline {
             points.len()
         );
         let curve = PiecewiseCurve::new(points.coordinates, pieces(&points, degree));
-        Ok(Draft::new(lists.key(), curve, size, definition)?.with_corners(corners))
+        let sampled = SampledLaw {
+            corners,
+            ..SampledLaw::default()
+        };
+        Ok(Draft::new(lists.key(), curve, size, definition)?.with_samples(sampled))
     }
 }
 

@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use super::SampleNoise;
 use crate::RollingError;
 
 /// Reason why a pitch curve does not exist.
@@ -230,6 +231,45 @@ pub enum PitchError {
         /// Largest whole number tried.
         limit: u32,
     },
+    /// The mean of the samples is not the mean ratio of the pair.
+    #[error(
+        "the samples give {mean:.6} driven turns per driver turn, but the mean ratio {}:{} needs {:.6}: that is {:.1} % off, and at most {} % is scaled away. Is this the right column, and is mean_ratio right?",
+        .ratio.0, .ratio.1, f64::from(.ratio.1) / f64::from(.ratio.0),
+        100.0 * (.mean * f64::from(.ratio.0) / f64::from(.ratio.1) - 1.0).abs(), 100.0 * .limit
+    )]
+    MeanOff {
+        /// Key of the samples.
+        key: &'static str,
+        /// Driven turns per driver turn by the samples.
+        mean: f64,
+        /// Turns of driver and driven gear in one whole cycle.
+        ratio: (u32, u32),
+        /// Maximum relative change of the samples.
+        limit: f64,
+    },
+    /// The curve of noisy samples is not possible.
+    #[error(
+        "noisy-law: the samples scatter by {:.2e} (rms), so that the curvature of the pitch curve is {:.1} times that of a circle by noise alone (maximum {:.2}). Write smooth = {{ harmonics = {} }}",
+        .0.deviation, .0.curvature, .0.limit, .0.harmonics
+    )]
+    Noisy(SampleNoise),
+    /// A file of samples that was not read.
+    #[error(
+        "the file {0} is named, but this design was read without its folder: save the design next to the file and open it from there, or write the samples into the design"
+    )]
+    NotRead(String),
+    /// No number of harmonics comes near enough to the samples.
+    #[error(
+        "tolerance {tolerance} is not reached with {limit} harmonics, the maximum for these samples: the largest distance from a sample is {residual:.3e}"
+    )]
+    NotSmoothed {
+        /// Tolerance as written, in the unit of the samples.
+        tolerance: f64,
+        /// Maximum number of harmonics.
+        limit: usize,
+        /// Largest distance with all of them, in the unit of the samples.
+        residual: f64,
+    },
     /// The curve changes so fast that no sampling follows it reliably.
     #[error("the curve changes too fast near {angle:.3} deg to be resolved")]
     TooRough {
@@ -279,6 +319,7 @@ impl PitchError {
             | Self::TooRough { key, .. }
             | Self::RatioNotPositive { key, .. }
             | Self::RatioNotRational { key, .. }
+            | Self::MeanOff { key, .. }
             | Self::Expression { key, .. } => key,
             Self::Eccentricity(_) => "eccentricity",
             Self::ToothCount(_) => "tooth_count",
@@ -288,6 +329,9 @@ impl PitchError {
             Self::AnglesNotIncreasing { .. } => "angle_deg",
             Self::Of(_) => "of",
             Self::NoConjugate(_) => "mean_ratio",
+            Self::NotSmoothed { .. } => "smooth.tolerance",
+            Self::Noisy(_) => "smooth",
+            Self::NotRead(_) => "file",
         }
     }
 }

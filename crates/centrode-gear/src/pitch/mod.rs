@@ -9,7 +9,7 @@ use centrode_geometry::{Antiderivative, Curve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use centrode_spec::digits;
+use centrode_spec::{SampleTable, digits};
 
 mod bezier;
 mod bspline;
@@ -18,15 +18,19 @@ mod conjugate;
 mod ellipse;
 mod error;
 mod limacon;
+mod mean;
+mod noise;
 mod periodic;
 mod piecewise;
 mod plane;
 mod points;
 mod polar;
 mod proof;
+mod ratio;
 mod sampled;
 mod size;
 mod symmetry;
+mod table;
 mod transmission;
 
 pub use bezier::Bezier;
@@ -36,11 +40,14 @@ pub use conjugate::Conjugate;
 pub use ellipse::{Ellipse, LobedEllipse};
 pub use error::PitchError;
 pub use limacon::Limacon;
+pub use noise::SampleNoise;
 pub use periodic::{Interpolation, Periodic};
 pub use points::Plane;
 pub use polar::{Polar, formula_parts, read_formula};
-pub use sampled::SampledCorner;
-pub use transmission::{Ratio, Transmission};
+pub use ratio::Ratio;
+pub use sampled::{MeanScaling, SampledCorner, SampledLaw};
+pub use table::{Smooth, SmoothAngle};
+pub use transmission::Transmission;
 
 pub use piecewise::HIGHEST_DEGREE;
 use plane::ScalableCurve;
@@ -76,6 +83,22 @@ pub enum PitchSpec {
     Conjugate(Conjugate),
 }
 
+/// Kinds of pitch curve whose samples may be in a file, with the key of the samples.
+pub const SAMPLE_TABLES: [SampleTable; 3] = [
+    SampleTable {
+        kind: "polar",
+        values: "radius",
+    },
+    SampleTable {
+        kind: "transmission",
+        values: "driven_angle_deg",
+    },
+    SampleTable {
+        kind: "ratio",
+        values: "ratio",
+    },
+];
+
 /// A resolved pitch curve.
 #[derive(Clone, Debug)]
 pub struct Pitch {
@@ -90,8 +113,8 @@ pub struct Pitch {
     pub definition: String,
     /// Turns of driver and driven gear that the description requires, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
-    /// Corners of the law that the samples follow; the curve through the samples rounds them.
-    pub corners: Vec<SampledCorner>,
+    /// Facts about the samples that the curve follows.
+    pub sampled: SampledLaw,
     pub(crate) symmetry: Symmetry,
 }
 
@@ -115,12 +138,22 @@ macro_rules! of_kind {
 }
 
 impl PitchSpec {
-    /// Exact curve, proved to wind once round the shaft axis with an increasing polar angle.
+    /// Exact curve, proved to wind once round the shaft axis with an increasing polar angle. A law from samples is scaled to the
+    /// nearest simple mean ratio.
     ///
     /// # Errors
     /// [`PitchError`] naming the violated rule and its numbers.
     pub fn resolve(&self) -> Result<Pitch, PitchError> {
-        self.draft()?.finish()
+        self.draft(None)?.finish()
+    }
+
+    /// Exact curve like [`resolve`](Self::resolve), of a pair with a mean ratio: turns of driver and driven gear. A law from
+    /// samples is scaled to it, and a smoothed law repeats as often per turn as it requires.
+    ///
+    /// # Errors
+    /// [`PitchError`] naming the violated rule and its numbers.
+    pub fn resolve_for(&self, ratio: (u32, u32)) -> Result<Pitch, PitchError> {
+        self.draft(Some(ratio))?.finish()
     }
 
     /// Number of teeth written with the curve.
@@ -146,8 +179,20 @@ impl PitchSpec {
         *count = teeth;
     }
 
-    fn draft(&self) -> Result<Draft, PitchError> {
-        of_kind!(self, spec => spec.draft())
+    fn draft(&self, ratio: Option<(u32, u32)>) -> Result<Draft, PitchError> {
+        match self {
+            Self::Polar(spec) => spec.draft(ratio),
+            Self::Transmission(spec) => spec.draft(ratio),
+            Self::Ratio(spec) => spec.draft(ratio),
+            Self::Circle(spec) => spec.draft(),
+            Self::EccentricCircle(spec) => spec.draft(),
+            Self::Ellipse(spec) => spec.draft(),
+            Self::LobedEllipse(spec) => spec.draft(),
+            Self::Limacon(spec) => spec.draft(),
+            Self::Bspline(spec) => spec.draft(),
+            Self::Bezier(spec) => spec.draft(),
+            Self::Conjugate(spec) => spec.draft(),
+        }
     }
 }
 
@@ -172,7 +217,7 @@ pub(crate) struct Draft {
     definition: String,
     scaled: Scaled,
     implied_ratio: Option<(u32, u32)>,
-    corners: Vec<SampledCorner>,
+    sampled: SampledLaw,
 }
 
 impl Draft {
@@ -191,7 +236,7 @@ impl Draft {
             definition,
             scaled: Scaled::Written,
             implied_ratio: None,
-            corners: Vec::new(),
+            sampled: SampledLaw::default(),
         })
     }
 
@@ -200,9 +245,9 @@ impl Draft {
         Self { scaled, ..self }
     }
 
-    /// The draft with the corners of the law that its samples follow.
-    fn with_corners(self, corners: Vec<SampledCorner>) -> Self {
-        Self { corners, ..self }
+    /// The draft with facts about the samples that it follows.
+    fn with_samples(self, sampled: SampledLaw) -> Self {
+        Self { sampled, ..self }
     }
 
     fn finish(mut self) -> Result<Pitch, PitchError> {
@@ -238,7 +283,7 @@ impl Draft {
             module,
             definition: self.definition,
             implied_ratio: self.implied_ratio,
-            corners: self.corners,
+            sampled: self.sampled,
             symmetry,
         })
     }

@@ -23,7 +23,7 @@ pub enum Interpolation {
 }
 
 /// Maximum number of harmonics of a trigonometric polynomial: the time of every evaluation is proportional to their number.
-const MAX_HARMONICS: usize = 500;
+pub(super) const MAX_HARMONICS: usize = 500;
 
 /// A function of period one turn.
 #[derive(Debug)]
@@ -99,6 +99,30 @@ impl Periodic {
         }
     }
 
+    /// Mean over one turn.
+    pub(crate) fn mean(&self) -> f64 {
+        match &self.0 {
+            Form::Fourier(series) => series.mean,
+            Form::Spline(spline) => spline.mean(),
+        }
+    }
+
+    /// The function times a factor.
+    pub(crate) fn scaled(mut self, factor: f64) -> Self {
+        match &mut self.0 {
+            Form::Fourier(series) => {
+                series.mean *= factor;
+                let terms = series.harmonics.as_flattened_mut();
+                terms.iter_mut().for_each(|c| *c *= factor);
+            }
+            Form::Spline(spline) => {
+                let terms = spline.pieces.as_flattened_mut();
+                terms.iter_mut().for_each(|c| *c *= factor);
+            }
+        }
+        self
+    }
+
     /// Symmetry of the function, as far as its coefficients show.
     pub(crate) fn symmetry(&self) -> Symmetry {
         match &self.0 {
@@ -143,12 +167,19 @@ impl Fourier {
 
     /// The trigonometric polynomial of lowest degree through equally spaced samples.
     fn through(samples: &[f64]) -> Self {
+        Self::of_samples(samples, samples.len() / 2, 1)
+    }
+
+    /// The first harmonics of equally spaced samples: those up to the highest that are multiples of `folds`. The others are zero.
+    pub(super) fn of_samples(samples: &[f64], highest: usize, folds: usize) -> Self {
         let count = samples.len();
-        let half = count / 2;
         let unit: Vec<(f64, f64)> = (0..count)
             .map(|i| (TAU * i as f64 / count as f64).sin_cos())
             .collect();
-        let harmonics = (1..=half).map(|n| {
+        let harmonic = |n: usize| {
+            if !n.is_multiple_of(folds) {
+                return [0.0; 2];
+            }
             // The highest harmonic of an even number of samples is a cosine of half weight.
             let weight = if 2 * n == count { 1.0 } else { 2.0 } / count as f64;
             let (mut c, mut s) = (0.0, 0.0);
@@ -159,11 +190,27 @@ impl Fourier {
             }
             let sine = if 2 * n == count { 0.0 } else { weight * s };
             [weight * c, sine]
-        });
+        };
         Self {
             mean: samples.iter().sum::<f64>() / count as f64,
-            harmonics: harmonics.collect(),
+            harmonics: (1..=highest).map(harmonic).collect(),
         }
+    }
+
+    /// Mean.
+    pub(super) fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Cosine and sine coefficient of every harmonic from the first.
+    pub(super) fn harmonics(&self) -> &[[f64; 2]] {
+        &self.harmonics
+    }
+
+    /// The series up to a harmonic.
+    pub(super) fn cut(mut self, highest: usize) -> Self {
+        self.harmonics.truncate(highest);
+        self
     }
 
     /// The greatest common divisor of the harmonics in use is the number of folds; without sines the function is even.
@@ -260,6 +307,17 @@ impl Spline {
             pieces: pieces.collect(),
             knots,
         }
+    }
+
+    /// Mean over one turn.
+    fn mean(&self) -> f64 {
+        let pieces = self.pieces.iter().zip(self.knots.windows(2));
+        let integral = |(piece, ends): (&[f64; 6], &[f64])| {
+            let step = ends[1] - ends[0];
+            let terms = piece.iter().enumerate().rev();
+            terms.fold(0.0, |sum, (k, c)| (sum + c / (k + 1) as f64) * step)
+        };
+        pieces.map(integral).sum::<f64>() / TAU
     }
 
     fn at(&self, phi: f64) -> Taylor {

@@ -4,12 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::finite;
+use super::noise::Effect;
 use super::periodic::{Fourier, Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Symmetry, sampled};
+use super::table::{Smooth, Table, TableLaw, not_read};
+use super::{Draft, PitchError, SampledLaw, Symmetry, sampled};
 use centrode_kinematics::formula::{Formula, FormulaError, Steep};
-use centrode_spec::degrees;
+use centrode_spec::{Column, degrees};
 
 /// A radius as a function of the polar angle: a formula, a table or a Fourier series.
 ///
@@ -21,7 +23,7 @@ pub struct Polar {
     /// Radius, mm, as a formula in `phi` (rad): `+ - * / ^`, `pi`, sin, cos, tan, asin, acos, atan,
     /// sinh, cosh, tanh, exp, ln, sqrt.
     pub expression: Option<String>,
-    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is omitted.
+    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is omitted. The last one may repeat the first, a turn later.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub radius: Vec<f64>,
     /// Polar angles of the radii, rad (degrees in the file), increasing within one turn.
@@ -32,8 +34,15 @@ pub struct Polar {
     )]
     #[schemars(with = "Vec<f64>")]
     pub angle: Vec<f64>,
-    /// Interpolation between the radii; default: "quintic" over equal steps, "cubic" with `angle_deg`.
+    /// CSV file with the radii, instead of the lists: its path from the folder of the design file. If it has several
+    /// columns, the first has the polar angles, degrees.
+    pub file: Option<String>,
+    /// Column of the file: its heading, or its number from one; default: the second one, or the only one.
+    pub column: Option<Column>,
+    /// Interpolation between the radii; default: "quintic" over equal steps, "cubic" over others.
     pub interpolation: Option<Interpolation>,
+    /// Smoothing of the radii by a Fourier series, instead of an interpolation.
+    pub smooth: Option<Smooth>,
     /// Mean radius of a Fourier series, mm.
     pub mean: Option<f64>,
     /// Cosine coefficients from the first harmonic, mm.
@@ -60,13 +69,14 @@ impl Polar {
         }
     }
 
-    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+    pub(super) fn draft(&self, ratio: Option<(u32, u32)>) -> Result<Draft, PitchError> {
         let size = Size::new(
             self.module,
             self.diametral_pitch,
             self.tooth_count,
             OwnSize::Written,
         );
+        not_read(self.file.as_deref(), self.column.is_some())?;
         if let Some(text) = &self.expression {
             self.nothing_of(&["radius", "mean"])?;
             let law = FormulaLaw::read("expression", text)?;
@@ -84,7 +94,7 @@ impl Polar {
                 "polar, Fourier series of {} harmonics",
                 self.cos.len().max(self.sin.len())
             );
-            let law = TableLaw(Periodic::from(series));
+            let law = RadiusTable(Periodic::from(series));
             return Draft::new("mean", PolarCurve::new(law), size, definition);
         }
         if self.radius.is_empty() {
@@ -96,45 +106,28 @@ impl Polar {
         for &r in &self.radius {
             super::error::positive("radius", r)?;
         }
-        let (table, kind) = self.table()?;
-        let definition = format!("polar, {kind} through {} radii", self.radius.len());
-        let corners = sampled::of_radii(&self.samples());
-        let draft = Draft::new("radius", PolarCurve::new(TableLaw(table)), size, definition)?;
-        Ok(draft.with_corners(corners))
-    }
-
-    /// Polar angle and radius of every sample, in order of the angle.
-    fn samples(&self) -> Vec<[f64; 2]> {
-        let radii = self.radius.iter().copied();
-        match self.angle.is_empty() {
-            true => even_steps(&self.radius),
-            false => self
-                .angle
-                .iter()
-                .copied()
-                .zip(radii)
-                .map(Into::into)
-                .collect(),
-        }
-    }
-
-    fn table(&self) -> Result<(Periodic, &'static str), PitchError> {
-        if self.angle.is_empty() {
-            let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
-            let table = Periodic::even("radius", &self.radius, interpolation)?;
-            return Ok((table, interpolation.name()));
-        }
-        if self
-            .interpolation
-            .is_some_and(|i| i != Interpolation::Cubic)
-        {
-            return Err(PitchError::Key {
-                key: "interpolation",
-                rule: "must be \"cubic\" if angle_deg is given",
-            });
-        }
-        let table = Periodic::uneven("radius", &self.angle, &self.radius)?;
-        Ok((table, Interpolation::Cubic.name()))
+        let table = Table::new("radius", &self.angle, &self.radius)?;
+        let folds = ratio.map_or(1, |(_, n2)| n2);
+        let law = table.law(self.interpolation, self.smooth, folds)?;
+        let effect = Effect {
+            order: 2,
+            curvature: 1.0 / law.law.mean(),
+            unit: 1.0,
+        };
+        let sampled = SampledLaw {
+            corners: match self.smooth {
+                None => sampled::of_radii(&table.samples()),
+                Some(_) => Vec::new(),
+            },
+            noise: table.noise(&law, effect),
+            scaling: None,
+        };
+        let TableLaw { law, words, .. } = law;
+        let definition = format!("polar, {words} radii");
+        let curve = PolarCurve::new(RadiusTable(law));
+        let draft = Draft::new("radius", curve, size, definition);
+        let draft = draft.map_err(|error| sampled.blamed(error))?;
+        Ok(draft.with_samples(sampled))
     }
 
     /// Refuses keys of another definition of the radius than the one in use.
@@ -143,6 +136,7 @@ impl Polar {
             ("radius", "radius", !self.radius.is_empty()),
             ("radius", "angle_deg", !self.angle.is_empty()),
             ("radius", "interpolation", self.interpolation.is_some()),
+            ("radius", "smooth", self.smooth.is_some()),
             ("mean", "mean", self.mean.is_some()),
             ("mean", "cos", !self.cos.is_empty()),
             ("mean", "sin", !self.sin.is_empty()),
@@ -151,18 +145,11 @@ impl Polar {
         match stray {
             Some((_, key, _)) => Err(PitchError::Key {
                 key,
-                rule: "cannot be given together with the other keys: give one of expression, radius (with angle_deg, interpolation), mean (with cos, sin)",
+                rule: "cannot be given together with the other keys: give one of expression, radius (with angle_deg, interpolation, smooth), mean (with cos, sin)",
             }),
             None => Ok(()),
         }
     }
-}
-
-/// Samples over equal steps of one turn, each with its angle.
-pub(super) fn even_steps(values: &[f64]) -> Vec<[f64; 2]> {
-    let step = TAU / values.len() as f64;
-    let values = values.iter().enumerate();
-    values.map(|(k, &value)| [step * k as f64, value]).collect()
 }
 
 impl Interpolation {
@@ -251,9 +238,9 @@ impl RadiusLaw for FormulaLaw {
 }
 
 #[derive(Debug)]
-struct TableLaw(Periodic);
+struct RadiusTable(Periodic);
 
-impl RadiusLaw for TableLaw {
+impl RadiusLaw for RadiusTable {
     fn radius(&self, phi: &Direction) -> Derivatives {
         self.0.at(phi.angle).derivatives()
     }

@@ -1,9 +1,12 @@
-//! Corners between samples of a periodic function.
+//! Facts about the samples that a pitch curve follows: scaling, and corners between samples.
 //!
 //! A spline through samples rounds every corner of the sampled law. At a corner the polynomials through the samples before it and
 //! after it meet at different slopes, although the slope of each polynomial is certain.
 
 use std::f64::consts::TAU;
+
+use super::PitchError;
+use super::noise::SampleNoise;
 
 /// Number of samples of a polynomial on one side of a corner. With fewer samples the slope of a curved law is less certain and
 /// weak corners are missed; with more samples, corners near each other are missed.
@@ -29,6 +32,38 @@ pub struct SampledCorner {
     pub angle: f64,
     /// Change of direction of the pitch curve there, rad, above zero where the corner is convex.
     pub turn: f64,
+}
+
+/// Mean ratio of samples and the factor that makes it the mean ratio of the pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanScaling {
+    /// Mean of d driven / d driver by the samples.
+    pub mean: f64,
+    /// Factor by which the law is multiplied.
+    pub factor: f64,
+    /// Turns of driver and driven gear in one whole cycle.
+    pub ratio: (u32, u32),
+}
+
+/// Facts about the samples that a pitch curve follows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SampledLaw {
+    /// Corners of the law that the samples follow; the curve through the samples rounds them.
+    pub corners: Vec<SampledCorner>,
+    /// Scaling of the samples to the mean ratio; `None` if they have that mean.
+    pub scaling: Option<MeanScaling>,
+    /// Noise of the samples, if it dominates the curvature of the curve.
+    pub noise: Option<SampleNoise>,
+}
+
+impl SampledLaw {
+    /// The error of a curve: if its samples are noisy, they are the cause.
+    pub(crate) fn blamed<E: From<PitchError>>(&self, error: E) -> E {
+        match self.noise {
+            Some(noise) => PitchError::Noisy(noise).into(),
+            None => error,
+        }
+    }
 }
 
 /// Corner of a function: input, value, and slopes before and after it.

@@ -694,9 +694,13 @@ fn corners_of_samples_are_found_where_pieces_meet() {
                 .collect(),
             ..Bspline::default()
         };
-        let of_kinds = [even.draft(), uneven.draft(), points.draft()];
+        let of_kinds = [even.draft(None), uneven.draft(None), points.draft()];
         // The mean ratio need not be one of small numbers.
-        let of_ratio = sampled::of_ratios(&polar::even_steps(&ratio.ratio));
+        let of_ratio = sampled::of_ratios(
+            &table::Table::new("ratio", &[], &ratio.ratio)
+                .expect("a table")
+                .samples(),
+        );
         // Coarse samples need not show weak corners.
         let weak = if count < 100 { 0.05 } else { 0.01 };
         let same = |one: &SampledCorner, other: &SampledCorner| {
@@ -706,7 +710,9 @@ fn corners_of_samples_are_found_where_pieces_meet() {
         };
         let drafts = of_kinds
             .into_iter()
-            .map(|draft| draft.expect("a curve").corners);
+            .map(|draft| draft.expect("a curve").sampled)
+            .inspect(|sampled| assert_eq!(sampled.noise, None, "{corners:?} {count}"))
+            .map(|sampled| sampled.corners);
         for found in drafts.chain([of_ratio]) {
             let is_real = |one: &SampledCorner| expected.iter().any(|other| same(one, other));
             assert!(
@@ -754,13 +760,14 @@ fn samples_of_smooth_laws_have_no_corner() {
                 radius,
                 ..Polar::default()
             }
-            .draft()
+            .draft(None)
             .expect("a curve");
             assert!(
-                draft.corners.is_empty(),
+                draft.sampled.corners.is_empty(),
                 "law {k}, {count}: {:?}",
-                draft.corners
+                draft.sampled.corners
             );
+            assert_eq!(draft.sampled.noise, None, "law {k}, {count}");
         }
     }
 }

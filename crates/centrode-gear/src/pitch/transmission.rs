@@ -4,18 +4,18 @@ use centrode_geometry::{Antiderivative, minimum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{finite, positive};
+use super::error::finite;
+use super::mean::{MOST_SCALING, driven_turns, nearest_ratio, scaling, turns};
+use super::noise::Effect;
 use super::periodic::{Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::points::count;
-use super::polar::{even_steps, formula_parts, read_formula, seam};
+use super::polar::{formula_parts, read_formula, seam};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Scaled, sampled};
+use super::table::{Smooth, SmoothAngle, Table, TableLaw, is_turn, not_read};
+use super::{Draft, PitchError, SampledLaw, Scaled, sampled};
 use centrode_kinematics::formula::{Formula, Taylor};
-use centrode_spec::degrees;
-
-/// Largest number of turns in the mean ratio of a law.
-const MAX_TURNS: u32 = 60;
+use centrode_spec::{Column, degrees};
 
 /// The driven gear's angle as a function of the driver's; the pitch curve follows.
 ///
@@ -26,7 +26,8 @@ const MAX_TURNS: u32 = 60;
 pub struct Transmission {
     /// Driven angle, rad, as a formula in the driver angle `phi`, rad.
     pub expression: Option<String>,
-    /// Driven angles, rad (degrees in the file), over equal steps of one driver turn, both ends included.
+    /// Driven angles, rad (degrees in the file), over equal steps of one driver turn if `angle_deg` is omitted. The last one may be
+    /// that of the whole turn: the first plus the turn of the driven gear.
     #[serde(
         rename = "driven_angle_deg",
         with = "degrees",
@@ -34,31 +35,23 @@ pub struct Transmission {
     )]
     #[schemars(with = "Vec<f64>")]
     pub driven_angle: Vec<f64>,
-    /// Interpolation between the samples; default: "quintic".
+    /// Driver angles of the samples, rad (degrees in the file), increasing within one turn.
+    #[serde(
+        rename = "angle_deg",
+        with = "degrees",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub angle: Vec<f64>,
+    /// CSV file with the driven angles, degrees, instead of the lists: its path from the folder of the design file. If it has several
+    /// columns, the first has the driver angles, degrees.
+    pub file: Option<String>,
+    /// Column of the file: its heading, or its number from one; default: the second one, or the only one.
+    pub column: Option<Column>,
+    /// Interpolation between the samples; default: "quintic" over equal steps, "cubic" over others.
     pub interpolation: Option<Interpolation>,
-    /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
-    pub center_distance: Option<f64>,
-    /// Module, mm, with `tooth_count`: sets the size of the curve.
-    pub module: Option<f64>,
-    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    pub diametral_pitch: Option<f64>,
-    /// Number of teeth.
-    pub tooth_count: Option<u32>,
-}
-
-/// The ratio `q = d driven / d driver` as a function of the driver angle; the pitch curve follows.
-///
-/// `r = a q / (1 + q)`, where `a` is the centre distance.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Ratio {
-    /// Ratio as a formula in the driver angle `phi`, rad.
-    pub expression: Option<String>,
-    /// Ratios over equal steps of one driver turn, without the repeated end.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub ratio: Vec<f64>,
-    /// Interpolation between the samples; default: "quintic".
-    pub interpolation: Option<Interpolation>,
+    /// Smoothing of the samples by a Fourier series, instead of an interpolation.
+    pub smooth: Option<SmoothAngle>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
     pub center_distance: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
@@ -79,41 +72,32 @@ impl Transmission {
         }
     }
 
-    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let (law, key, total, definition) = match &self.expression {
-            Some(text) => {
-                let samples = !self.driven_angle.is_empty();
-                formula_alone("driven_angle_deg", samples, self.interpolation)?;
-                let formula = read_formula("expression", text)?;
-                let total = formula.at(TAU).0[0] - formula.at(0.0).0[0];
-                let law = RatioForm::Driven(formula);
-                (law, "expression", total, format!("driven angle = {text}"))
-            }
-            None => self.sampled()?,
-        };
+    pub(super) fn draft(&self, ratio: Option<(u32, u32)>) -> Result<Draft, PitchError> {
+        not_read(self.file.as_deref(), self.column.is_some())?;
         let size = self.size()?;
-        let corners = sampled::of_ratios(&self.mean_ratios());
-        let draft = draft(
-            law,
-            key,
+        let Some(text) = &self.expression else {
+            return self.sampled(ratio, size);
+        };
+        formula_alone(&[
+            ("driven_angle_deg", !self.driven_angle.is_empty()),
+            ("angle_deg", !self.angle.is_empty()),
+            ("interpolation", self.interpolation.is_some()),
+            ("smooth", self.smooth.is_some()),
+        ])?;
+        let formula = read_formula("expression", text)?;
+        let total = formula.at(TAU).0[0] - formula.at(0.0).0[0];
+        let definition = format!("driven angle = {text}");
+        draft(
+            RatioForm::Driven(formula),
+            "expression",
             Some(total),
             definition,
             size,
             self.center_distance,
-        )?;
-        Ok(draft.with_corners(corners))
+        )
     }
 
-    /// Mean ratio of every step of the samples, at its middle.
-    fn mean_ratios(&self) -> Vec<[f64; 2]> {
-        let step = TAU / self.driven_angle.len().saturating_sub(1) as f64;
-        let steps = self.driven_angle.windows(2).enumerate();
-        steps
-            .map(|(k, ends)| [step * (k as f64 + 0.5), (ends[1] - ends[0]) / step])
-            .collect()
-    }
-
-    fn sampled(&self) -> Result<(RatioForm, &'static str, f64, String), PitchError> {
+    fn sampled(&self, ratio: Option<(u32, u32)>, size: Size) -> Result<Draft, PitchError> {
         let key = "driven_angle_deg";
         if self.driven_angle.is_empty() {
             let rule = "is missing: give expression or driven_angle_deg";
@@ -124,20 +108,68 @@ impl Transmission {
         for &angle in &self.driven_angle {
             finite(key, angle.to_degrees())?;
         }
-        let steps = self.driven_angle.len() - 1;
-        let first = self.driven_angle[0];
-        let total = self.driven_angle[steps] - first;
-        let mean = total / TAU;
+        let (turn, values) = self.turn(ratio);
+        let angle = &self.angle[..self.angle.len().min(values.len())];
+        let (scaling, factor) = scaling(key, turn / TAU, ratio)?;
+        let total = turn * factor;
+        let steps = values.len();
+        let uniform = |i: usize| match angle.get(i) {
+            Some(at) => total * (at - angle[0]) / TAU,
+            None => total * i as f64 / steps as f64,
+        };
         let swing: Vec<f64> = (0..steps)
-            .map(|i| self.driven_angle[i] - first - total * i as f64 / steps as f64)
+            .map(|i| (values[i] - values[0]) * factor - uniform(i))
             .collect();
-        let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
-        let swing = Periodic::even(key, &swing, interpolation)?;
-        let definition = format!(
-            "driven angle, {} through {steps} steps",
-            interpolation.name()
+        let table = Table::at(key, angle, &swing)?;
+        let folds = ratio.map_or(1, |(_, n2)| n2);
+        let smooth = self.smooth.map(Smooth::from);
+        let law = table.law(self.interpolation, smooth, folds)?;
+        let sampled = SampledLaw {
+            corners: match smooth {
+                None => sampled::of_ratios(&mean_ratios(&table.samples(), total)),
+                Some(_) => Vec::new(),
+            },
+            scaling,
+            noise: table.noise(&law, effect(3, total / TAU)),
+        };
+        let TableLaw { law, words, .. } = law;
+        let draft = draft(
+            RatioForm::Swing(total / TAU, law),
+            key,
+            Some(total),
+            format!("driven angle, {words} steps"),
+            size,
+            self.center_distance,
         );
-        Ok((RatioForm::Swing(mean, swing), key, total, definition))
+        let draft = draft.map_err(|error| sampled.blamed(error))?;
+        Ok(draft.with_samples(sampled))
+    }
+
+    /// Turn of the driven gear in one driver turn, rad, and the samples without the one that ends the turn.
+    ///
+    /// If the table has no angles, its last sample ends the turn if the turn of the driven gear is nearer to this sample than to
+    /// the next step. A table that omits the last sample has the turn of the mean ratio. Without a mean ratio, a last sample at a
+    /// ratio of whole numbers ends the turn.
+    fn turn(&self, ratio: Option<(u32, u32)>) -> (f64, &[f64]) {
+        let values = self.driven_angle.as_slice();
+        let last = values.len() - 1;
+        let shown = values[last] - values[0];
+        let step = 0.5 * (values[1] - values[0] + values[last] - values[last - 1]);
+        let nearest = ratio.unwrap_or_else(|| nearest_ratio((shown + step) / TAU));
+        let required = TAU * driven_turns(nearest);
+        let ends = match self.angle.as_slice() {
+            [first, .., last] => is_turn(last - first),
+            _ if ratio.is_none() && turns("driven_angle_deg", shown / TAU).is_ok() => true,
+            _ => (required - shown).abs() <= (required - shown - step).abs(),
+        };
+        match ends {
+            true => (shown, &values[..last]),
+            // The step that is missing is not measured: it makes the turn whole, unless the samples are far from it.
+            false if (required - shown - step).abs() <= MOST_SCALING * required => {
+                (required, values)
+            }
+            false => (shown + step, values),
+        }
     }
 
     fn size(&self) -> Result<Size, PitchError> {
@@ -150,71 +182,46 @@ impl Transmission {
     }
 }
 
-impl Ratio {
-    /// Curve of a formula for the ratio.
-    #[must_use]
-    pub fn expression(formula: impl Into<String>) -> Self {
-        Self {
-            expression: Some(formula.into()),
-            ..Self::default()
-        }
-    }
-
-    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = size(
-            self.center_distance,
-            self.module,
-            self.diametral_pitch,
-            self.tooth_count,
-        )?;
-        if let Some(text) = &self.expression {
-            formula_alone("ratio", !self.ratio.is_empty(), self.interpolation)?;
-            let law = RatioForm::Ratio(read_formula("expression", text)?);
-            let definition = format!("d driven / d driver = {text}");
-            return draft(
-                law,
-                "expression",
-                None,
-                definition,
-                size,
-                self.center_distance,
-            );
-        }
-        if self.ratio.is_empty() {
-            let rule = "is missing: give expression or ratio";
-            let key = "expression";
-            return Err(PitchError::Key { key, rule });
-        }
-        for &q in &self.ratio {
-            positive("ratio", q)?;
-        }
-        let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
-        let law = RatioForm::Table(Periodic::even("ratio", &self.ratio, interpolation)?);
-        let definition = format!(
-            "d driven / d driver, {} through {} samples",
-            interpolation.name(),
-            self.ratio.len()
-        );
-        let corners = sampled::of_ratios(&even_steps(&self.ratio));
-        let draft = draft(law, "ratio", None, definition, size, self.center_distance)?;
-        Ok(draft.with_corners(corners))
+/// Effect of samples whose derivative of an order is the second derivative of the ratio, about the mean ratio: that of
+/// `r = a q / (1 + q)` is `r''/r = q''/(q (1 + q))`.
+pub(super) fn effect(order: i32, mean: f64) -> Effect {
+    Effect {
+        order,
+        curvature: 1.0 / (mean * (1.0 + mean)),
+        unit: if order == 3 {
+            1.0_f64.to_degrees()
+        } else {
+            1.0
+        },
     }
 }
 
-fn formula_alone(
-    list: &'static str,
-    given: bool,
-    interpolation: Option<Interpolation>,
-) -> Result<(), PitchError> {
+/// Mean ratio of every step of the deviations of the driven angle from uniform motion, at the middle of the step.
+fn mean_ratios(swing: &[[f64; 2]], total: f64) -> Vec<[f64; 2]> {
+    let [first, ..] = swing else {
+        return Vec::new();
+    };
+    let end = [first[0] + TAU, first[1]];
+    let after = swing.iter().skip(1).chain([&end]);
+    let steps = swing.iter().zip(after);
+    steps
+        .map(|([from, low], [to, high])| {
+            let ratio = (high - low) / (to - from) + total / TAU;
+            [0.5 * (from + to), ratio]
+        })
+        .collect()
+}
+
+/// Refuses keys of samples next to a formula.
+pub(super) fn formula_alone(keys: &[(&'static str, bool)]) -> Result<(), PitchError> {
     let rule = "cannot be given together with expression: give one of them";
-    let interpolated = interpolation.map(|_| "interpolation");
-    match given.then_some(list).or(interpolated) {
-        Some(key) => Err(PitchError::Key { key, rule }),
+    match keys.iter().find(|(_, given)| *given) {
+        Some((key, _)) => Err(PitchError::Key { key, rule }),
         None => Ok(()),
     }
 }
 
-fn size(
+pub(super) fn size(
     own: Option<f64>,
     module: Option<f64>,
     diametral_pitch: Option<f64>,
@@ -230,7 +237,7 @@ fn size(
 }
 
 /// The pitch curve of a law whose driven gear makes the angle `total` in one driver turn.
-fn draft(
+pub(super) fn draft(
     law: RatioForm,
     key: &'static str,
     total: Option<f64>,
@@ -303,23 +310,8 @@ fn draft(
     Ok(draft)
 }
 
-/// Turns of driver and driven gear, in lowest terms, if the driven gear makes `turns` turns per driver turn.
-fn turns(key: &'static str, turns: f64) -> Result<(u32, u32), PitchError> {
-    for driver in 1..=MAX_TURNS {
-        let driven = (turns * f64::from(driver)).round();
-        if driven >= 1.0
-            && driven <= MAX_TURNS.into()
-            && (turns * f64::from(driver) - driven).abs() <= 1e-9 * driven
-        {
-            return Ok((driver, driven as u32));
-        }
-    }
-    let limit = MAX_TURNS;
-    Err(PitchError::RatioNotRational { key, turns, limit })
-}
-
 #[derive(Debug)]
-enum RatioForm {
+pub(super) enum RatioForm {
     /// Driven angle.
     Driven(Formula),
     /// Mean ratio, and the deviation of the driven angle from it.

@@ -12,7 +12,7 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, piece_ends};
 pub use error::RollingError;
 pub use pitch_contact::{CurvatureRange, PitchContact};
 
-use super::pitch::{SampledCorner, Symmetry};
+use super::pitch::{SampledLaw, Symmetry};
 
 /// Number of equal parts of a turn in each of which a pitch curve has few extremes. Fewer can miss extremes, more take
 /// longer.
@@ -88,7 +88,7 @@ pub struct Rolling {
     /// Number of waves of the radius per turn.
     swings: usize,
     symmetry: Symmetry,
-    sampled_corners: Vec<SampledCorner>,
+    sampled: SampledLaw,
     /// Ranges of both curvatures, found when first needed.
     ranges: OnceLock<[CurvatureRange; 2]>,
 }
@@ -112,21 +112,19 @@ impl Rolling {
         Self { symmetry, ..self }
     }
 
-    /// Pitch curves whose driver goes through samples of a law with corners.
-    pub(crate) fn with_sampled_corners(self, sampled_corners: Vec<SampledCorner>) -> Self {
-        Self {
-            sampled_corners,
-            ..self
-        }
+    /// Pitch curves whose driver follows samples.
+    pub(crate) fn with_samples(self, sampled: SampledLaw) -> Self {
+        Self { sampled, ..self }
     }
 
-    /// Corners of the law that samples of the driver's pitch curve follow, by polar angle. The pitch curve rounds them.
+    /// Facts about the samples that the driver's pitch curve follows.
     ///
-    /// A corner is where the polynomials through five samples before and after it meet at different slopes. At least 16 samples
-    /// are needed, five of them between two corners; corners below 4e-3 rad are not reported.
+    /// Corners are in order of the polar angle. A corner is where the polynomials through five samples before and after it meet at
+    /// different slopes. At least 16 samples are needed, five of them between two corners; corners below 4e-3 rad are not
+    /// reported.
     #[must_use]
-    pub fn sampled_corners(&self) -> &[SampledCorner] {
-        &self.sampled_corners
+    pub fn sampled(&self) -> &SampledLaw {
+        &self.sampled
     }
 
     /// Symmetry of the driver's pitch curve, as far as it is known.

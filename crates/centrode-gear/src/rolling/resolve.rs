@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
 
 use super::{Extreme, Rolling, RollingError, SAME};
-use crate::pitch::{Symmetry, gcd};
+use crate::pitch::{SampledLaw, Symmetry, gcd};
 
 /// Maximum number of pieces on which a pitch curve may not be smooth, for example next to a kink. A larger number
 /// accepts curves whose length is not exact.
@@ -103,7 +103,7 @@ impl Rolling {
             maximum,
             swings,
             symmetry: Symmetry::NONE,
-            sampled_corners: Vec::new(),
+            sampled: SampledLaw::default(),
             ranges: OnceLock::new(),
         };
         rolling.knots = rolling.knots_at(&breaks);

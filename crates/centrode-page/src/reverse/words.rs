@@ -121,6 +121,7 @@ pub fn goal(goal: &Goal) -> Labelled {
 pub fn finding(finding: &Finding) -> Labelled {
     let remedy = finding
         .remedy
+        .as_deref()
         .map_or_else(String::new, |remedy| format!("; remedy: {remedy}"));
     (
         finding.rule.to_owned(),

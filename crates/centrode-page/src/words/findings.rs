@@ -1,5 +1,6 @@
 use centrode_analysis::{Finding, FlankPlace, Report, Severity};
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// Number of findings of each severity, in words.
 pub fn summary(report: &Report) -> String {
@@ -45,7 +46,7 @@ pub struct FindingWords {
     pub figures: String,
     /// Remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub remedy: Option<&'static str>,
+    pub remedy: Option<Cow<'static, str>>,
     /// Keys of the design that the finding depends on.
     pub causes: &'static [&'static str],
     /// Part at fault.
@@ -88,7 +89,7 @@ pub fn finding_words(finding: &Finding) -> FindingWords {
         place: about.join("; "),
         flanks: flanks(&finding.place.flanks),
         figures,
-        remedy: finding.remedy,
+        remedy: finding.remedy.clone(),
         causes: causes(finding.rule),
         part: finding.place.part.clone(),
         input: finding.place.input,
@@ -116,6 +117,19 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "interference" | "tip-interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
         "negative-backlash" => &["teeth.thickness_deviations", "teeth.backlash"],
         "pitch-curve-corner" => &["pitch.radius", "pitch.ratio", "pitch.driven_angle_deg"],
+        "noisy-law" => &[
+            "pitch.smooth",
+            "pitch.file",
+            "pitch.radius",
+            "pitch.ratio",
+            "pitch.driven_angle_deg",
+        ],
+        "scaled-mean" => &[
+            "pitch.file",
+            "pitch.ratio",
+            "pitch.driven_angle_deg",
+            "mean_ratio",
+        ],
         "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
         "shaper-radius" => &["tool.tooth_count"],
         "pitch-curve-swings" => &["pitch.expression"],

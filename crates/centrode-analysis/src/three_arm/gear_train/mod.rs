@@ -102,6 +102,8 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
         }
     }
     let of_mesh = [
+        "noisy-law",
+        "scaled-mean",
         "pitch-curve-corner",
         "interference",
         "tip-interference",
