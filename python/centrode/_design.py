@@ -1,5 +1,6 @@
 import json
 from os import PathLike, fspath
+from os.path import dirname
 from typing import Any
 
 from ._centrode import _LARGEST_DESIGN, Mechanism, _load, _schema
@@ -9,6 +10,8 @@ from ._error import DesignError
 def load(path: str | PathLike[str]) -> Mechanism:
     """Read a design file and make its mechanism, an object of the class of its family.
 
+    Files of samples that the design names (`file = "law.csv"`) are read from its folder.
+
     Raises:
         DesignError: The design breaks a rule; `key`, `line` and `column` are the position.
         OSError: The file cannot be read.
@@ -16,7 +19,7 @@ def load(path: str | PathLike[str]) -> Mechanism:
     with open(path, "rb") as file:
         contents = file.read(_LARGEST_DESIGN)
     try:
-        return _load(contents)
+        return _load(contents, dirname(fspath(path)))
     except DesignError as error:
         error.args = (f"{fspath(path)}: {error}",)
         raise

@@ -1,4 +1,6 @@
-use std::path::PathBuf;
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use centrode::FAMILIES;
@@ -144,10 +146,34 @@ pub(crate) fn read(py: Python<'_>, bytes: &[u8]) -> Answer<Arc<dyn family::Mecha
     Ok(wait(py, move || file.mechanism())??)
 }
 
-/// The object of a design file's bytes.
+/// The object of a design file's bytes; the files that it names are in its folder, if it has one.
 #[pyfunction]
-pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> Answer<Bound<'py, PyAny>> {
-    object(py, &read(py, contents)?)
+#[pyo3(signature = (contents, folder=None))]
+pub(crate) fn _load<'py>(
+    py: Python<'py>,
+    contents: &[u8],
+    folder: Option<PathBuf>,
+) -> Answer<Bound<'py, PyAny>> {
+    // Reading bytes that are no text gives the error.
+    let (Some(folder), Ok(text)) = (folder, std::str::from_utf8(contents)) else {
+        return object(py, &read(py, contents)?);
+    };
+    let whole = FAMILIES.with_files(text, &|file| {
+        bytes(&folder.join(file)).map_err(|error| error.to_string())
+    })?;
+    object(py, &read(py, whole.as_bytes())?)
+}
+
+/// Bytes of a file, up to one more than the limit.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    // A named pipe without a writer would never be read.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path)?;
+    file.take(LARGEST as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The object that the Python part of the package loads from a path: it names the path in its errors.

@@ -1,5 +1,6 @@
 import io
 import json
+import math
 import os
 import resource
 import shutil
@@ -172,6 +173,28 @@ def test_an_edit_keeps_comments_and_order(served):
     assert snapshot["text"] == text.replace("2.25 ", "2.5 ")
     assert snapshot["picture"]["links"]
     assert snapshot["verdict"] is None
+
+
+def test_a_law_is_read_from_the_file_next_to_the_design(served):
+    law = served.design.with_name("law.csv")
+    text = DESIGN.partition("[pitch]")[0] + '[pitch]\nkind = "ratio"\nfile = "law.csv"\nmodule = 2\ntooth_count = 24\n'
+    ask = {"text": text, "depth": "checks"}
+    samples = [1 + 0.1 * math.cos(math.radians(5 * k)) for k in range(72)]
+    law.write_text("\n".join(map(str, samples)))
+    status, snapshot = served.json("POST", "solve", ask)
+    assert status == 200
+    # The text of the page still names the file.
+    assert (snapshot["text"], snapshot["error"]) == (text, None)
+    assert "72 samples" in snapshot["definition"]
+    law.write_text("\n".join(map(str, samples[::2])))
+    assert "36 samples" in served.json("POST", "solve", ask)[1]["definition"]
+    assert served.json("POST", "fault", {"text": text})[1]["fault"] is None
+    law.unlink()
+    snapshot = served.json("POST", "solve", ask)[1]
+    assert snapshot["error"]["key"] == "pitch.file"
+    assert "cannot read law.csv" in snapshot["error"]["message"]
+    line = text.splitlines().index('file = "law.csv"') + 1
+    assert served.json("POST", "fault", {"text": text})[1]["fault"]["line"] == snapshot["error"]["line"] == line
 
 
 def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):

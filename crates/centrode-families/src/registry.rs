@@ -1,8 +1,11 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use centrode_analysis::{Report, Response};
+use centrode_gear::pitch::SAMPLE_TABLES;
 use centrode_spec::{
     self, Design, DesignError, DesignFamily, DesignFault, DesignFile, DesignSpec, MechanismError,
+    OpenFile,
 };
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
@@ -226,6 +229,18 @@ impl Families {
     #[must_use]
     pub fn json_schema(&self) -> serde_json::Value {
         centrode_spec::json_schema(self.0)
+    }
+
+    /// Text of a design file with the samples of the files that it names, as [`DesignFile::with_files`] makes it.
+    ///
+    /// # Errors
+    /// [`DesignError`] at the key `file` or `column`, with the line of the file.
+    pub fn with_files<'t>(
+        &self,
+        text: &'t str,
+        open: OpenFile<'_>,
+    ) -> Result<Cow<'t, str>, DesignError> {
+        DesignFile::with_files(text, &SAMPLE_TABLES, open)
     }
 
     /// Every mistake of a design file, as [`DesignFile::mistakes`] finds them.

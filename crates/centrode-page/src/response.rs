@@ -13,7 +13,8 @@ const MOST: usize = 12;
 /// Request of the page: one number of the design, between two values in the file's unit.
 #[derive(Debug, Deserialize)]
 pub struct Ask {
-    text: String,
+    /// Text of the design.
+    pub text: String,
     key: String,
     from: f64,
     to: f64,

@@ -26,7 +26,8 @@ pub struct Searching(Mutex<Option<Arc<Run>>>);
 /// Request of the page.
 #[derive(Debug, Deserialize)]
 pub struct Ask {
-    text: String,
+    /// Text of the design, as the page shows it.
+    pub text: String,
     method: String,
     seed: u64,
     evaluations: u64,
@@ -104,13 +105,13 @@ impl Searching {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Starts a search; a search that is running is stopped.
+    /// Starts a search; a search that is running is stopped. `whole` is the text of the design with the samples of its files.
     ///
     /// # Errors
     /// The reason in words if no search can start.
-    pub fn start(&self, ask: Ask) -> Result<(), String> {
+    pub fn start(&self, ask: Ask, whole: String) -> Result<(), String> {
         let file = FAMILIES
-            .read(ask.text.as_bytes())
+            .read(whole.as_bytes())
             .map_err(|error| error.message())?;
         let problem = file.family().problem(file.design());
         let problem = problem.map_err(|error| error.to_string())?;
@@ -135,7 +136,7 @@ impl Searching {
                 ended: None,
                 remark: None,
                 history: Vec::new(),
-                goals: goals(&ask.text),
+                goals: goals(&whole),
                 missed: Vec::new(),
                 text: ask.text.clone(),
             }),
@@ -145,8 +146,8 @@ impl Searching {
             std::thread::Builder::new()
                 .name("search".into())
                 .spawn(move || {
-                    let done =
-                        InternalFault::catch(|| work(&own, &ask.text, problem.as_ref(), search));
+                    let texts = [ask.text.as_str(), &whole];
+                    let done = InternalFault::catch(|| work(&own, texts, problem.as_ref(), search));
                     if let Err(fault) = done {
                         own.fail(fault);
                     }
@@ -222,7 +223,13 @@ fn missed(start: &[Goal], best: &[Goal]) -> Vec<Missed> {
     missed.collect()
 }
 
-fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSearch) {
+/// Runs a search. The design is given as the page shows it, and with the samples of its files.
+fn work(
+    run: &Run,
+    [text, whole]: [&str; 2],
+    problem: &dyn DesignProblem,
+    mut search: DesignSearch,
+) {
     let at = |point: &[f64]| problem.goals(point).unwrap_or_default();
     let start = problem.start().map(|point| at(&point)).unwrap_or_default();
     run.state().missed = missed(&start, &start);
@@ -243,7 +250,8 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
         if let Ok(best) = better(text, problem, &search.best())
             && best != run.state().text
         {
-            let goals = goals(&best);
+            let whole = better(whole, problem, &search.best());
+            let goals = goals(&whole.unwrap_or_default());
             let mut state = run.state();
             (state.text, state.goals) = (best, goals);
             drop(state);

@@ -126,6 +126,8 @@ pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
 #[derive(Debug)]
 pub struct Subject {
     snapshot: Snapshot,
+    /// Text of the design with the samples of its files.
+    whole: String,
     mechanism: Arc<dyn Mechanism>,
     beside: OnceLock<Adjacent>,
     /// Picture in detail, once it has been requested.
@@ -215,20 +217,24 @@ impl Subject {
     /// The snapshot with the reason.
     pub fn from_text(text: String) -> Result<Self, Box<Snapshot>> {
         match resolved(&text) {
-            Ok(mechanism) => Ok(Self::new(text, mechanism)),
+            Ok(mechanism) => Ok(Self::new(text.clone(), text, mechanism)),
             Err(error) => Err(Box::new(Snapshot::with_error(text, &error))),
         }
     }
 
     /// Resolves and draws a design that is being edited: an impossible detail of a body becomes a finding, and the rest is drawn
-    /// without it.
+    /// without it. `whole` is its text with the samples of its files, or the reason why there are none.
     ///
     /// # Errors
     /// The snapshot with the reason.
-    pub fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
-        match Made::new(&text) {
-            Ok(made) => {
-                let mut subject = Self::new(text, made.mechanism);
+    pub fn without_faulty_details(
+        text: String,
+        whole: Result<String, DesignError>,
+    ) -> Result<Self, Box<Snapshot>> {
+        let made = whole.and_then(|whole| Ok((Made::new(&whole)?, whole)));
+        match made {
+            Ok((made, whole)) => {
+                let mut subject = Self::new(text, whole, made.mechanism);
                 subject.snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
                     message: left_out.message(),
                     ..Fault::from(&left_out.error)
@@ -240,7 +246,7 @@ impl Subject {
         }
     }
 
-    fn new(text: String, mechanism: Arc<dyn Mechanism>) -> Self {
+    fn new(text: String, whole: String, mechanism: Arc<dyn Mechanism>) -> Self {
         let snapshot = Snapshot {
             text,
             name: mechanism.design().name().into(),
@@ -254,15 +260,16 @@ impl Subject {
         };
         Self {
             snapshot,
+            whole,
             mechanism,
             beside: OnceLock::new(),
             detailed: OnceLock::new(),
         }
     }
 
-    /// Whether this is the mechanism of a text.
-    pub fn is_of(&self, text: &str) -> bool {
-        self.snapshot.text == text
+    /// Whether this is the mechanism of a text, which with the samples of its files is `whole`.
+    pub fn is_of(&self, text: &str, whole: &str) -> bool {
+        self.snapshot.text == text && self.whole == whole
     }
 
     /// Snapshot with the picture but without the results of the checks, as JSON in two parts: the picture is in the first.

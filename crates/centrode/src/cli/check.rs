@@ -14,7 +14,7 @@ use crate::page::Made;
 
 /// Resolves a design and prints its report.
 pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     let text = source.text()?;
     let progress = Progress::new(2);
     progress.step("resolving the design");

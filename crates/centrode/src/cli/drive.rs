@@ -14,7 +14,7 @@ use crate::page::reverse::words::range;
 
 /// Finds the gears of a drive, prints their figures and writes the design.
 pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     if let Some(output) = &command.output {
         source.keep_from(output)?;
     }

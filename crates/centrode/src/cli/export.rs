@@ -14,7 +14,7 @@ use std::{io::Write, sync::Arc};
 /// Resolves a design, checks it and writes its files.
 pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Failure> {
     refuse_useless(command)?;
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     let design = source.design()?;
     let progress = Progress::new(4);
     progress.step("resolving the design");

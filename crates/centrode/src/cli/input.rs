@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
@@ -35,17 +36,45 @@ fn is_pipe(_: fs::FileType) -> bool {
     false
 }
 
+/// Text of a design file with the samples of the files that it names. `folder` is the folder of the design.
+///
+/// # Errors
+/// [`DesignError`] at the key of a file that cannot be read.
+pub(crate) fn with_files<'t>(text: &'t str, folder: &Path) -> Result<Cow<'t, str>, DesignError> {
+    FAMILIES.with_files(text, &|file| {
+        let bytes = read(&folder.join(file), DesignFile::LARGEST);
+        bytes.map_err(|error| error.to_string())
+    })
+}
+
 /// Text of a design file, stored for its errors.
 #[derive(Clone)]
 pub(crate) struct Source {
     name: String,
     bytes: Vec<u8>,
+    /// The text as it is on disk, if `bytes` have the samples of other files.
+    written: Option<Vec<u8>>,
 }
 
 impl Source {
     /// Reads a file, or standard input for `-`; at most one byte more than a design may have.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         Self::open_up_to(path, DesignFile::LARGEST)
+    }
+
+    /// Reads a design file with the samples of the files that it names; a design from standard input has no folder for them.
+    pub(crate) fn open_design(path: &Path) -> Result<Self, Failure> {
+        let mut source = Self::open(path)?;
+        if path != Path::new("-")
+            && let Ok(text) = std::str::from_utf8(&source.bytes)
+        {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let whole = with_files(text, folder).map_err(|error| source.blame(error))?;
+            if let Cow::Owned(whole) = whole {
+                source.written = Some(std::mem::replace(&mut source.bytes, whole.into_bytes()));
+            }
+        }
+        Ok(source)
     }
 
     /// Reads a file, or standard input for `-`, up to one byte more than a limit.
@@ -62,7 +91,11 @@ impl Source {
             read(path, limit)
         };
         match read {
-            Ok(bytes) => Ok(Self { name, bytes }),
+            Ok(bytes) => Ok(Self {
+                name,
+                bytes,
+                written: None,
+            }),
             Err(error) => Err(Failure::Input { name, error }),
         }
     }
@@ -104,6 +137,7 @@ impl Source {
         Self {
             name: "design".into(),
             bytes: text.as_bytes().to_vec(),
+            written: None,
         }
     }
 
@@ -134,7 +168,8 @@ impl Source {
     fn failure(&self, errors: Vec<DesignError>) -> Failure {
         Failure::Design {
             name: self.name.clone(),
-            text: String::from_utf8_lossy(&self.bytes).into_owned(),
+            text: String::from_utf8_lossy(self.written.as_ref().unwrap_or(&self.bytes))
+                .into_owned(),
             errors,
         }
     }

@@ -27,7 +27,7 @@ const LINE: Duration = Duration::from_secs(5);
 
 /// Searches for a better design and writes it, with its search next to it.
 pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     source.keep_from(&command.output)?;
     let file = source.design()?;
     // A design that gives no mechanism is reported as by a check.

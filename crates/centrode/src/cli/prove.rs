@@ -10,7 +10,7 @@ use crate::family::NotProved;
 
 /// Writes the certificates of a machine's gear pairs.
 pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     source.keep_from(&command.output)?;
     let design = source.design()?;
     let progress = Progress::new(2);

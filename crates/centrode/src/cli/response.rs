@@ -19,7 +19,7 @@ const LONGEST_LINE: usize = 100;
 
 /// Prints the response of a design's figures to one of its numbers.
 pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     if let Some(path) = &command.csv {
         source.keep_from(path)?;
     }

@@ -12,7 +12,7 @@ use crate::page::Subject;
 
 /// Writes a design's page as one file that needs no other file.
 pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open(&command.design)?;
+    let source = Source::open_design(&command.design)?;
     source.keep_from(&command.output)?;
     let design = source.design()?;
     let progress = Progress::new(1);

@@ -4,6 +4,7 @@
 mod bad_designs;
 mod drive;
 mod export;
+mod law_file;
 mod parts;
 mod reverse;
 #[cfg(unix)]

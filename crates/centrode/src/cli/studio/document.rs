@@ -1,8 +1,9 @@
 use crate::cli::failure::Failure;
 use crate::cli::input::{self, Source};
 use crate::formats::{Bundle, BundleError};
-use centrode_spec::DesignFile;
+use centrode_spec::{DesignError, DesignFile};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,6 +17,15 @@ pub(crate) struct Document {
     known: Mutex<String>,
     /// Whether the autosave holds work of the page that is open now: earlier work is not overwritten.
     own: AtomicBool,
+}
+
+/// Text of a design, and the same with the samples of the files that it names.
+#[derive(Debug)]
+pub(crate) struct DesignText {
+    /// Text as the page shows it.
+    pub(crate) text: String,
+    /// Text that is read.
+    pub(crate) whole: Result<String, DesignError>,
 }
 
 /// State of the file on disk.
@@ -86,6 +96,12 @@ impl Document {
     /// Path of the file.
     pub(crate) fn path(&self) -> PathBuf {
         self.folder.join(&self.name)
+    }
+
+    /// A text of the design with the samples of the files that it names, which are relative to the folder of the design file.
+    pub(crate) fn with_files(&self, text: String) -> DesignText {
+        let whole = input::with_files(&text, &self.folder).map(Cow::into_owned);
+        DesignText { text, whole }
     }
 
     /// Text of the file when it was last read or written here.

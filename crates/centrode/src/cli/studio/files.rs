@@ -1,12 +1,16 @@
 //! Files of a design for the page, packed as one.
 
+use std::sync::Arc;
+
 use axum::Json;
 use axum::body::Bytes;
+use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse as _, Response};
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
 
+use super::StudioState;
 use super::routes::{Refused, computed};
 use crate::cli::args::{Arguments, Command, Export, File};
 use crate::cli::export;
@@ -104,11 +108,19 @@ impl Files {
     }
 }
 
-pub(super) async fn answer(Json(ask): Json<Files>) -> Result<Response, Refused> {
+pub(super) async fn answer(
+    State(state): State<Arc<StudioState>>,
+    Json(ask): Json<Files>,
+) -> Result<Response, Refused> {
     let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
     let command = ask.command().map_err(unusable)?;
-    let zip = computed(move || export::zip(&ask.text, command.as_ref(), ask.page())).await?;
-    let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
+    let zip = computed(move || {
+        let page = ask.page();
+        let whole = state.document.with_files(ask.text).whole;
+        let whole = whole.map_err(|error| error.to_string())?;
+        export::zip(&whole, command.as_ref(), page).map_err(|failure| failure.to_string())
+    });
+    let zip = zip.await?.map_err(unusable)?;
     Ok((
         [(header::CONTENT_TYPE, "application/zip")],
         Bytes::from(zip),

@@ -166,6 +166,8 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
+    let shared = Arc::clone(&state);
+    let text = apart(move || shared.document.with_files(text)).await?;
     match state
         .solver
         .solve(&ask.page, ask.turn, text, ask.depth)
@@ -195,8 +197,12 @@ pub(crate) struct Text {
 }
 
 /// Reason why a text does not read as a design; null if it does.
-async fn fault(Json(ask): Json<Text>) -> Result<Response, Refused> {
-    let fault = apart(move || FAMILIES.read(ask.text.as_bytes()).err()).await?;
+async fn fault(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
+    let fault = apart(move || {
+        let whole = state.document.with_files(ask.text).whole;
+        whole.and_then(|text| FAMILIES.read(text.as_bytes())).err()
+    });
+    let fault = fault.await?;
     Ok(Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response())
 }
 
@@ -293,7 +299,12 @@ async fn searching(
     State(state): Shared,
     Json(ask): Json<search::Ask>,
 ) -> Result<Response, Refused> {
-    let started = computed(move || state.searching.start(ask)).await?;
+    let started = computed(move || {
+        let whole = state.document.with_files(ask.text.clone()).whole;
+        let whole = whole.map_err(|error| error.message())?;
+        state.searching.start(ask, whole)
+    });
+    let started = started.await?;
     started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(json!({})).into_response())
 }
@@ -315,23 +326,36 @@ async fn forgotten(State(state): Shared) -> Response {
 }
 
 /// Response of the goals to one number.
-async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
-    let answers = computed(move || response::answers(&ask)).await?;
+async fn respond(
+    State(state): Shared,
+    Json(mut ask): Json<response::Ask>,
+) -> Result<Response, Refused> {
+    let answers = computed(move || {
+        let whole = state.document.with_files(ask.text).whole;
+        ask.text = whole.map_err(|error| error.message())?;
+        response::answers(&ask)
+    });
+    let answers = answers.await?;
     let answers =
         answers.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(answers).into_response())
 }
 
 /// Choices that depend on the design: parts that can be exported alone, and the reason if there is no search.
-async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
+async fn choices(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
     let found = computed(move || {
-        let parts = FAMILIES.read(ask.text.as_bytes()).and_then(|file| {
+        let whole = state
+            .document
+            .with_files(ask.text)
+            .whole
+            .unwrap_or_default();
+        let parts = FAMILIES.read(whole.as_bytes()).and_then(|file| {
             let mechanism = file.mechanism()?;
             Ok(export::parts(mechanism.as_ref(), file.family()))
         });
         json!({
             "parts": parts.unwrap_or_default(),
-            "unsearched": unsearchable(&ask.text),
+            "unsearched": unsearchable(&whole),
         })
     });
     Ok(Json(found.await?).into_response())

@@ -1,6 +1,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::document::DesignText;
 use crate::InternalFault;
 use crate::analysis::Progress;
 use crate::geometry::{Cancel, Cancelled};
@@ -132,7 +133,7 @@ impl Solver {
         self: &Arc<Self>,
         page: &str,
         turn: u64,
-        text: String,
+        text: DesignText,
         depth: Depth,
     ) -> Result<Answer, Unsolved> {
         let wait = Wait::begin(self, page, turn).ok_or(Unsolved::Overtaken)?;
@@ -167,15 +168,24 @@ impl Solver {
         Some(under_way.get(page)?.progress.share())
     }
 
-    fn answer(&self, text: String, depth: Depth, send: &dyn Fn(String)) -> serde_json::Result<()> {
+    fn answer(
+        &self,
+        DesignText { text, whole }: DesignText,
+        depth: Depth,
+        send: &dyn Fn(String),
+    ) -> serde_json::Result<()> {
         if depth == Depth::Numbers {
             send(Snapshot::cancelled(text).json()?);
             return Ok(());
         }
         let last = held(&self.last).clone();
-        let subject = match last.filter(|subject| subject.is_of(&text)) {
+        let is_last = |subject: &Arc<Subject>| {
+            let same = |whole: &String| subject.is_of(&text, whole);
+            whole.as_ref().is_ok_and(same)
+        };
+        let subject = match last.filter(is_last) {
             Some(subject) => subject,
-            None => match Subject::without_faulty_details(text) {
+            None => match Subject::without_faulty_details(text, whole) {
                 Ok(subject) => Arc::new(subject),
                 Err(snapshot) => {
                     send(snapshot.json()?);
@@ -218,6 +228,21 @@ mod tests {
 
     const PAGE: &str = "one";
 
+    impl From<String> for DesignText {
+        fn from(text: String) -> Self {
+            Self {
+                whole: Ok(text.clone()),
+                text,
+            }
+        }
+    }
+
+    impl From<&str> for DesignText {
+        fn from(text: &str) -> Self {
+            text.to_owned().into()
+        }
+    }
+
     /// A design that takes minutes to solve.
     const SLOW: &str = r#"
         family = "gear-pair"
@@ -234,7 +259,7 @@ mod tests {
         text: String,
         depth: Depth,
     ) -> Result<String, Unsolved> {
-        let mut answer = solver.solve(page, turn, text, depth).await?;
+        let mut answer = solver.solve(page, turn, text.into(), depth).await?;
         let mut whole = String::new();
         while let Some(part) = answer.next().await {
             whole += &part;
