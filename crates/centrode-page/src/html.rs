@@ -74,13 +74,15 @@ const STYLES: [Asset; 4] = assets!(
 );
 
 /// The scripts; `main.js` is the first to run.
-const SCRIPTS: [Asset; 43] = assets!(
+const SCRIPTS: [Asset; 47] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js" = UPLOT,
     "axes.js",
     "chart-files.js",
     "charts.js",
     "compare.js",
+    "compose.js",
+    "compose-panel.js",
     "dialogs.js",
     "elements.js",
     "figures.js",
@@ -101,6 +103,7 @@ const SCRIPTS: [Asset; 43] = assets!(
     "numbers.js",
     "painter.js",
     "overlays.js",
+    "picking.js",
     "picture-files.js",
     "points.js",
     "reach.js",
@@ -115,6 +118,7 @@ const SCRIPTS: [Asset; 43] = assets!(
     "stage.js",
     "state.js",
     "theme.js",
+    "tools.js",
     "transport.js",
     "verdict.js",
     "ways.js",

@@ -17,6 +17,9 @@ pub mod reverse;
 pub mod search;
 pub mod words;
 
-pub use design::{Edit, EditError, Fault, Goals, LeftOut, Made, Snapshot, Subject, drawn, edited};
+pub use design::{
+    Composed, EMPTY_MACHINE, Edit, EditError, Fault, Gesture, Goals, LeftOut, Made, Other, Pin,
+    Refusal, Snapshot, Subject, composed, drawn, edited,
+};
 pub use html::{Asset, INDEX, PATH, Packed, START, asset, packed, report};
 pub use meshes::meshes;

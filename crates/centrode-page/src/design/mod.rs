@@ -14,4 +14,5 @@ mod start;
 
 pub use detail::{LeftOut, Made};
 pub use edit::{Edit, EditError, edited};
+pub use machine::compose::{Composed, EMPTY_MACHINE, Gesture, Other, Pin, Refusal, composed};
 pub use snapshot::{Fault, Goals, Snapshot, Subject, drawn};

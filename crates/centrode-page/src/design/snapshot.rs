@@ -1,5 +1,6 @@
 use super::detail::{LeftOut, Made};
 use super::field::{Table, tables};
+use super::machine::compose::Composition;
 use crate::words::{self, FindingWords, GoalWords, Section};
 use centrode_analysis::Report;
 use centrode_export::picture::{Curve, CurveList, Picture};
@@ -34,6 +35,8 @@ pub struct Snapshot {
     beside: Adjacent,
     /// Speed of the input, rad/s, if the design has one.
     speed: Option<f64>,
+    /// Parts of a composed machine; `None` for any other design.
+    compose: Option<Composition>,
     verdict: Option<Verdict>,
 }
 
@@ -140,6 +143,7 @@ impl Snapshot {
         let tables = tables(&text);
         let curves = Vec::new();
         Self {
+            compose: Composition::empty(&text),
             text,
             beside: Adjacent { tables, curves },
             ..Self::default()
@@ -248,6 +252,7 @@ impl Subject {
 
     fn new(text: String, whole: String, mechanism: Arc<dyn Mechanism>) -> Self {
         let snapshot = Snapshot {
+            compose: Composition::of(&*mechanism, &text),
             text,
             name: mechanism.design().name().into(),
             title: mechanism.design().title().into(),

@@ -111,7 +111,7 @@ export class Form {
 
   table(table) {
     const name = table.title ?? (table.key ? table.key.split(".").map(words).join(" · ") : "General");
-    const fold = element("details", { class: "table" },
+    const fold = element("details", { class: "table", "data-key": table.key },
       element("summary", { title: table.doc || undefined }, name),
       ...this.rows(table), this.actions(table));
     const isBlank = (value) => value === null || (Array.isArray(value) && value.every(isBlank));

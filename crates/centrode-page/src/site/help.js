@@ -19,6 +19,10 @@ const KEYS = [
   ["A point of the drawing", [
     ["drag, or ← → ↑ ↓", "move it"], ["Insert, or double-click on the curve", "add a point of a B-spline"], ["Delete", "delete a point of a B-spline"],
   ]],
+  ["Composing a machine", [
+    ["B D S G C P K T", "add a body, dyad, slider, gear pair, cam, point, corner, goal"], ["V", "select a part: rename, copy, delete"],
+    ["click, or choose from the lists", "pick points and bodies"], ["0 … 9", "type the first length"], ["Esc", "leave the tool"],
+  ]],
   ["Points in a table", [
     ["Insert, Ctrl+Delete", "add a point after this one, delete this one"], ["Ctrl+V", "take cells of a spreadsheet"],
   ]],

@@ -2,6 +2,7 @@
 
 import { Charts } from "./charts.js";
 import { Compare } from "./compare.js";
+import { Compose } from "./compose.js";
 import * as dialogs from "./dialogs.js";
 import { byId } from "./elements.js";
 import { DesignFile } from "./file.js";
@@ -29,6 +30,7 @@ const embedded = byId("snapshot");
 const stage = new Stage((poses) => {
   handles?.place(poses);
   space?.follow();
+  compose?.draw();
 });
 const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
@@ -37,6 +39,17 @@ const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) =
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.text, sound: Boolean(state.snapshot?.picture && !state.snapshot.error && !state.snapshot.detail) }));
+
+const compose = embedded ? null : new Compose(stage, {
+  text: () => state.history.text,
+  input: () => transport.input,
+  settled,
+  shown: async () => state.shown,
+  take: replace,
+  edit: (edits) => edit(edits, true),
+  began: () => transport.play(false),
+  complain,
+});
 
 let file = null;
 let search = null;
@@ -71,7 +84,7 @@ function show(snapshot, asked = snapshot.asked) {
   if (snapshot.verdict && !snapshot.error && !search?.showing) state.checked = snapshot;
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
-    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined };
+    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined, compose: snapshot.compose ?? before.compose };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -103,6 +116,7 @@ function panels() {
   byId("heading").textContent = snapshot.title || snapshot.name || file?.name || "";
   Object.assign(byId("definition"), { textContent: snapshot.definition, title: snapshot.definition });
   form.show(snapshot, snapshot.asked);
+  compose?.show(snapshot);
   charts.show(snapshot.curves, state.pinned?.curves);
   charts.place.classList.toggle("stale", Boolean(snapshot.error));
   judge();

@@ -136,6 +136,16 @@ export class Painter {
     return pitch.some(({ path }) => this.context.isPointInStroke(path, px * this.density, py * this.density));
   }
 
+  /** Whether a position of the box is on the body of a link, or within some pixels of one of its bars. */
+  isOn(index, pose, [px, py], pixels) {
+    const width = this.enter(pose);
+    const { body, lines } = this.scene.links[index];
+    const [x, y] = [px * this.density, py * this.density];
+    this.context.setLineDash([]);
+    this.context.lineWidth = width(2 * pixels);
+    return this.context.isPointInPath(body, x, y, "evenodd") || lines.some(({ role, path }) => MATTER.includes(role) && this.context.isPointInStroke(path, x, y));
+  }
+
   clear() {
     this.context.setTransform(1, 0, 0, 1, 0, 0);
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);

@@ -21,6 +21,8 @@ export class Stage extends Painter {
     this.fitted = true;
     /** Whether a point is being drawn aside: the view must not move under it. */
     this.held = false;
+    /** Tool that takes clicks in the picture. */
+    this.tool = null;
     /** Picture from before a drag, which is drawn below it. */
     this.before = null;
     this.mesh = new MeshView(this);
@@ -121,7 +123,14 @@ export class Stage extends Painter {
 
   draw() {
     this.clear();
-    if (!this.scene) return;
+    if (!this.scene) {
+      // What is composed begins on an empty ground.
+      if (this.tool) {
+        this.measure();
+        this.moved?.([[0, 0, 0]]);
+      }
+      return;
+    }
     this.follow(this.input);
     this.context.globalAlpha = this.stale ? 0.45 : 1;
     const poses = this.parts(this.input);
@@ -164,7 +173,7 @@ export class Stage extends Painter {
     }, { passive: false });
     const held = new Map();
     box.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0 || event.target.closest("button, label, .handle")) return;
+      if (event.button !== 0 || event.target.closest("button, label, .handle, .other")) return;
       box.setPointerCapture(event.pointerId);
       held.set(event.pointerId, place(event));
     });
@@ -185,7 +194,7 @@ export class Stage extends Painter {
       box.addEventListener(end, (event) => held.delete(event.pointerId));
     }
     box.addEventListener("dblclick", (event) => {
-      if (!event.target.closest("button, label, .handle")) this.fit();
+      if (!this.tool && !event.target.closest("button, label, .handle")) this.fit();
     });
     box.addEventListener("keydown", (event) => {
       if (event.target !== box || event.ctrlKey || event.metaKey || event.altKey) return;

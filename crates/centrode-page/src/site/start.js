@@ -193,6 +193,14 @@ const calm = () => {
 };
 still.addEventListener("change", calm);
 calm();
+byId("empty").addEventListener("click", async () => {
+  try {
+    const { empty, taken, folder } = await server.offer();
+    await make({ text: empty }, "An empty machine, to be composed by clicks.", free("machine", taken), folder);
+  } catch (error) {
+    complain(error);
+  }
+});
 byId("open").addEventListener("submit", (event) => {
   event.preventDefault();
   open(byId("path").value.trim());

@@ -40,6 +40,11 @@ export function show(snapshot, pinned, go) {
   const { verdict, error } = snapshot;
   const told = verdict?.goals ?? snapshot.goals;
   mark(snapshot);
+  if (error && snapshot.compose?.empty) {
+    clear();
+    place.replaceChildren(title("No part yet", "open"), element("p", {}, "Add a body: click where it turns, then its end."));
+    return;
+  }
   if (error) {
     const { key, line, column } = error;
     const words = brief(fault(error));

@@ -1,4 +1,4 @@
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
@@ -10,7 +10,7 @@ use super::machine::retyped;
 use super::plane::moved;
 
 /// A new value for a key of the design file.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Edit {
     /// Path of the key, `teeth.backlash`, `pitch.radius[3]`.
     key: String,
@@ -40,7 +40,6 @@ impl Edit {
     }
 
     /// A word for a key.
-    #[cfg(test)]
     pub(crate) fn word(key: &str, word: &str) -> Self {
         Self {
             key: key.into(),

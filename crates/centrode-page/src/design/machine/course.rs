@@ -135,9 +135,9 @@ impl Course {
 
 /// Axes of a body.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
-    pub(super) origin: Point,
-    pub(super) angle: f64,
+pub(in crate::design) struct Frame {
+    pub(in crate::design) origin: Point,
+    pub(in crate::design) angle: f64,
 }
 
 impl Frame {
@@ -148,7 +148,7 @@ impl Frame {
     }
 
     /// Coordinates of a position in these axes.
-    pub(super) fn seen(&self, place: Point) -> Point {
+    pub(in crate::design) fn seen(&self, place: Point) -> Point {
         let (way, along) = (place - self.origin, unit(self.angle));
         Point::new(along.dot(&way), along.perp(&way))
     }

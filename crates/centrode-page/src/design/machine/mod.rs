@@ -1,12 +1,14 @@
 //! Change of a dyad of a composed machine to another type.
 
+pub(super) mod compose;
 mod course;
 mod forms;
 #[cfg(test)]
 mod tests;
 mod writing;
 
-use self::course::{Course, Frame, ends, written};
+pub(super) use self::course::Frame;
+use self::course::{Course, ends, written};
 pub(super) use self::writing::put_point;
 use super::edit::{Step, container};
 use super::kind::{MOST, mechanism, sound};

@@ -4,7 +4,7 @@ use super::solver::{Depth, Unsolved};
 use super::{StudioState, files, meshes};
 use crate::cli::export;
 use crate::geometry::Cancel;
-use crate::page::{self, Edit, Fault, edited, response, search};
+use crate::page::{self, Edit, Fault, Gesture, composed, edited, response, search};
 use crate::{FAMILIES, InternalFault};
 use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
@@ -40,6 +40,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
             get(async |State(state): Shared| state.watch.events()),
         )
         .route("/solve", post(solve))
+        .route("/compose", post(compose))
         .route("/progress/{page}", get(progress))
         .route("/fault", post(fault))
         .route("/save", post(save))
@@ -184,6 +185,23 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
     }
+}
+
+#[derive(Deserialize)]
+struct Compose {
+    text: String,
+    /// Input at which the picture is shown, rad.
+    input: f64,
+    gesture: Gesture,
+}
+
+/// Text with a part that was added or changed by clicks; or the reason why it is not, which is no failure of the request.
+async fn compose(Json(ask): Json<Compose>) -> Result<Response, Refused> {
+    let made = computed(move || composed(&ask.text, ask.input, &ask.gesture)).await?;
+    Ok(match made {
+        Ok(made) => Json(made).into_response(),
+        Err(refusal) => Json(refusal).into_response(),
+    })
 }
 
 /// Share of the checks of a page that is done; null while nothing is solved for it.

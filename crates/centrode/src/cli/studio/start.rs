@@ -62,6 +62,8 @@ pub(crate) struct Offer {
     /// File names of the folder that are taken.
     taken: Vec<String>,
     families: Vec<OfferedFamily>,
+    /// Text of a machine without parts, to be composed on the page.
+    empty: &'static str,
 }
 
 /// A design file of the folder.
@@ -133,6 +135,7 @@ impl StartPage {
             files,
             taken,
             families: families.collect(),
+            empty: crate::page::EMPTY_MACHINE,
         }
     }
 
