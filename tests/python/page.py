@@ -55,10 +55,16 @@ def until(page, expression, arg=None, patience=PATIENCE):
 
 @contextmanager
 def shown(browser, url, script="", ready=settled, toured=True, size=(1440, 900), **options):
-    """A page that may not complain on its console; a script runs before its own. Its user has seen the tour before."""
+    """A page that may not complain on its console; a script runs before its own.
+
+    Its user has seen the tour before, and has chosen to see all numbers.
+    """
     context = browser.new_context(viewport=dict(zip(("width", "height"), size, strict=True)), **options)
     if toured:
-        context.add_cookies([{"name": "centrode-tour", "value": "seen", "domain": "127.0.0.1", "path": "/"}])
+        known = [("centrode-tour", "seen"), ("centrode-form", "all")]
+        context.add_cookies(
+            [{"name": name, "value": value, "domain": "127.0.0.1", "path": "/"} for name, value in known]
+        )
     context.add_init_script(script)
     context.set_default_timeout(PATIENCE)
     page = context.new_page()

@@ -24,7 +24,7 @@ def browser(tmp_path_factory):
 
 def seen(browser, url):
     browser.go(url)
-    browser.run("""document.cookie = "centrode-tour=seen; path=/" """)
+    browser.run("""document.cookie = "centrode-tour=seen; path=/"; document.cookie = "centrode-form=all; path=/" """)
     browser.go(url)
     browser.wait(SETTLED)
 

@@ -74,7 +74,7 @@ const STYLES: [Asset; 4] = assets!(
 );
 
 /// The scripts; `main.js` is the first to run.
-const SCRIPTS: [Asset; 47] = assets!(
+const SCRIPTS: [Asset; 48] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js" = UPLOT,
     "axes.js",
@@ -85,6 +85,7 @@ const SCRIPTS: [Asset; 47] = assets!(
     "compose-panel.js",
     "dialogs.js",
     "elements.js",
+    "essentials.js",
     "figures.js",
     "find.js",
     "file.js",

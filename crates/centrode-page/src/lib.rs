@@ -19,7 +19,7 @@ pub mod words;
 
 pub use design::{
     Composed, EMPTY_MACHINE, Edit, EditError, Fault, Gesture, Goals, LeftOut, Made, Other, Pin,
-    Refusal, Snapshot, Subject, composed, drawn, edited,
+    Refusal, Snapshot, Subject, composed, drawn, edited, with_table,
 };
 pub use html::{Asset, INDEX, PATH, Packed, START, asset, packed, report};
 pub use meshes::meshes;

@@ -4,6 +4,7 @@ use centrode_families::FAMILIES;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::edit::can_be_added;
 use super::schema::{Requirements, described, marked, shape};
 
 /// Mark of the schema for keys that change the shape of bodies, but not the motion.
@@ -19,6 +20,12 @@ pub(crate) struct Table {
     doc: String,
     /// Whether it is optional as a whole.
     optional: bool,
+    /// Whether it is not in the file and has no effect without being there.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) absent: bool,
+    /// Whether it can be added with the values of a template.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) addable: bool,
     /// Whether the table is in the file and may be removed from it.
     #[serde(skip)]
     pub(crate) may_go: bool,
@@ -61,6 +68,11 @@ impl Field {
     /// Whether the key is in the file and is optional.
     pub(crate) fn may_go(&self) -> bool {
         self.written && self.optional
+    }
+
+    /// Whether the key may be omitted.
+    pub(crate) fn is_optional(&self) -> bool {
+        self.optional
     }
 
     /// The words to choose from.
@@ -117,12 +129,16 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
         None,
         &mut out,
     );
-    // Tables within a detail are details, too.
+    // Tables within a detail are details, too, and those within an absent table are absent.
     for inner in 1..out.len() {
         let (around, rest) = out.split_at_mut(inner);
         let own = &mut rest[0];
-        let holds = |table: &Table| own.key.starts_with(&format!("{}.", table.key));
+        let key = own.key.clone();
+        let holds = |table: &Table| key.starts_with(&format!("{}.", table.key));
         own.detail |= around.iter().any(|table| table.detail && holds(table));
+        let is_within = around.iter().any(|table| table.absent && holds(table));
+        own.addable = own.absent && !is_within && can_be_added(text, own);
+        own.absent |= is_within;
     }
     out
 }
@@ -209,6 +225,8 @@ fn add(
         key: key.into(),
         doc,
         optional,
+        absent: optional && written.is_none() && (tag.is_some() || !properties.is_empty()),
+        addable: false,
         may_go: false,
         detail: marked(schema(), sub, DETAIL).is_some(),
         fields: Vec::new(),

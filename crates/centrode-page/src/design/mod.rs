@@ -13,6 +13,6 @@ mod snapshot;
 mod start;
 
 pub use detail::{LeftOut, Made};
-pub use edit::{Edit, EditError, edited};
+pub use edit::{Edit, EditError, edited, with_table};
 pub use machine::compose::{Composed, EMPTY_MACHINE, Gesture, Other, Pin, Refusal, composed};
 pub use snapshot::{Fault, Goals, Snapshot, Subject, drawn};

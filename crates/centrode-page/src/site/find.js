@@ -1,6 +1,7 @@
 // Numbers of the form by words, and the essential ones alone.
 
 import { element, words } from "./elements.js";
+import * as essentials from "./essentials.js";
 
 export class Find {
   constructor(form) {
@@ -13,7 +14,8 @@ export class Find {
         this.box.value = "";
         this.show();
       } });
-    this.few = element("input", { type: "checkbox", id: "essentials", onchange: () => this.show() });
+    this.few = element("input", { type: "checkbox", id: "essentials", onchange: () => this.choose() });
+    this.few.checked = Boolean(form.brief) && !essentials.all();
     this.count = element("p", { class: "quiet", id: "find-count", role: "status" });
     this.place = element("div", { class: "find" }, this.box,
       element("label", { title: "What the file says and what it cannot be without" }, this.few, " Essentials"), this.count);
@@ -24,6 +26,13 @@ export class Find {
   /** Whether a field is one that the design is made of: written in the file, or one it cannot be without. */
   static essential({ written, optional, value }) {
     return written || (!optional && value !== null);
+  }
+
+  /** Essentials alone, or all numbers: remembered for the next visit. */
+  choose() {
+    if (this.form.brief) essentials.remember(!this.few.checked);
+    this.form.rebuild();
+    this.show();
   }
 
   /** Hides fields outside the search. */
@@ -40,8 +49,10 @@ export class Find {
       places.set(place, (places.get(place) ?? false) || meant);
     }
     for (const [place, meant] of places) place.hidden = !meant;
-    for (const fold of this.form.place.querySelectorAll("details.table")) {
-      const found = [...places].some(([place, meant]) => meant && fold.contains(place));
+    const more = [...this.form.place.querySelectorAll(".absent button")];
+    for (const button of more) button.hidden = !asked.every((word) => button.title.toLowerCase().includes(word));
+    for (const fold of this.form.place.querySelectorAll(".table")) {
+      const found = [...places].some(([place, meant]) => meant && fold.contains(place)) || more.some((button) => !button.hidden && fold.contains(button));
       fold.hidden = !found;
       if (asked.length && !this.opened.has(fold)) this.opened.set(fold, fold.open);
       if (asked.length) fold.open = found;

@@ -1,6 +1,7 @@
 // The numbers of the design, one field a key.
 
 import { byId, element, fault, symbol, words } from "./elements.js";
+import { first } from "./essentials.js";
 import { Find } from "./find.js";
 import * as hints from "./hints.js";
 import { brief, decimal, stepOf, stepped, tidy, typed, worked } from "./numbers.js";
@@ -15,9 +16,14 @@ function sizeOf(field) {
 }
 
 export class Form {
-  /** `edit(edits, final)` takes new values; `fixed` shows them only. */
-  constructor({ edit, hold, respond, fixed }) {
+  /** `edit(edits, final)` takes new values; `fixed` shows them only, `brief` the essential ones first. */
+  constructor({ edit, hold, respond, add, fixed, brief }) {
     this.edit = edit;
+    /** Adds a table to the file. */
+    this.add = add;
+    /** Whether the essential numbers are shown first. */
+    this.brief = brief && !fixed;
+    this.tables = [];
     /** Told when a drag of a number begins and ends. */
     this.hold = hold;
     this.respond = respond;
@@ -57,7 +63,7 @@ export class Form {
   /** Shows a design; `asked` is the clock at its request: later edits stay. */
   show(snapshot, asked = this.clock) {
     this.asked = asked;
-    const shape = JSON.stringify(snapshot.tables.map((table) => [table.key, table.fields.map((field) =>
+    const shape = JSON.stringify(snapshot.tables.map((table) => [table.key, table.absent, table.fields.map((field) =>
       [field.key, field.kind, Array.isArray(field.value) ? field.value.length : 0, field.choices])]));
     if (shape !== this.shape) this.build(snapshot.tables);
     this.shape = shape;
@@ -81,7 +87,14 @@ export class Form {
     return undefined;
   }
 
+  /** Builds the form of the same design again, filled. */
+  rebuild() {
+    this.build(this.tables);
+    for (const table of this.tables) for (const field of table.fields) this.fill(field);
+  }
+
   build(tables) {
+    this.tables = tables;
     const focused = document.activeElement;
     const typing = (input) => input === focused && input.type === "text" && input.value !== input.dataset.value;
     const all = [...this.controls.values()].flatMap((control) => control.inputs);
@@ -89,7 +102,10 @@ export class Form {
     const [start, end] = ahead.includes(focused) ? [focused.selectionStart, focused.selectionEnd] : [];
     this.controls.clear();
     this.points.clear();
-    this.place.replaceChildren(this.find.place, ...tables.filter((table) => table.fields.length || table.actions).map((table) => this.table(table)));
+    const there = tables.filter((table) => !table.absent && (table.fields.length || table.actions));
+    this.place.replaceChildren(this.find.place, ...there.map((table) => this.table(table)));
+    if (!this.fixed) this.offer(tables);
+    if (this.find.few.checked) this.lead(tables);
     for (const old of ahead) this.carry(old, byId(old.id));
     const again = focused?.id ? byId(focused.id) : null;
     again?.focus();
@@ -125,6 +141,35 @@ export class Form {
     fold.querySelector("summary").after(remark);
     if (table.key) this.controls.set(table.key, { field: null, remark, row: fold, inputs: [] });
     return fold;
+  }
+
+  /** Tables that are not in the file, each a name in the grey line of the table around it. */
+  offer(tables) {
+    const absent = tables.filter(({ addable }) => addable);
+    for (const { key, doc } of absent) {
+      const around = key.split(".").slice(0, -1).join(".");
+      const fold = [...this.place.querySelectorAll("details.table")].find(({ dataset }) => dataset.key === around) ?? this.place.querySelector("details.table");
+      if (!fold) continue;
+      const line = fold.querySelector(".absent") ?? fold.appendChild(element("p", { class: "absent" }));
+      const name = words(key);
+      line.append(element("button", { type: "button", id: `add-${key}`, title: `Add ${name}. ${doc}`, onclick: () => {
+        this.unfolded.add(key);
+        this.add(key);
+      } }, `+ ${name}`));
+    }
+  }
+
+  /** The essential numbers first, under a title of their own. */
+  lead(tables) {
+    const rows = first(tables).map((key) => this.controls.get(key)?.row.closest(".points, .field")).filter((row) => row?.matches(".field"));
+    if (rows.length < 3) return;
+    for (const label of rows.map((row) => row.querySelector("label"))) {
+      // The table in which it is, which is not around it here.
+      const around = label.htmlFor.replace("field-", "").split(".").at(-2);
+      if (around) label.prepend(element("span", { class: "around" }, `${words(around)} · `));
+    }
+    const section = element("section", { class: "table first", "aria-label": "Essentials" }, element("h2", {}, "Essentials"), ...rows);
+    this.find.place.after(section);
   }
 
   /** Buttons of a table that do more than change a value. */
@@ -277,6 +322,8 @@ export class Form {
 
   fill(field) {
     const control = this.controls.get(field.key);
+    // A table that is not in the file has no controls.
+    if (!control) return;
     control.field = field;
     const values = Array.isArray(field.value) && control.inputs.length > 1 ? field.value : [field.value];
     // Most numbers stay as they are, and writing them again would have the browser lay them out again.

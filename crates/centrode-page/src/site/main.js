@@ -4,7 +4,7 @@ import { Charts } from "./charts.js";
 import { Compare } from "./compare.js";
 import { Compose } from "./compose.js";
 import * as dialogs from "./dialogs.js";
-import { byId } from "./elements.js";
+import { byId, place } from "./elements.js";
 import { DesignFile } from "./file.js";
 import { Form } from "./form.js";
 import { Handles } from "./handles.js";
@@ -12,6 +12,7 @@ import * as help from "./help.js";
 import { History } from "./history.js";
 import * as layout from "./layout.js";
 import * as link from "./link.js";
+import { brief } from "./numbers.js";
 import * as pictures from "./picture-files.js";
 import * as response from "./response.js";
 import { Search } from "./search.js";
@@ -35,7 +36,7 @@ const stage = new Stage((poses) => {
 const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
 transport.charts = charts;
-const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) => respond(key), fixed: Boolean(embedded) });
+const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) => respond(key), add, fixed: Boolean(embedded), brief: true });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.text, sound: Boolean(state.snapshot?.picture && !state.snapshot.error && !state.snapshot.detail) }));
@@ -215,6 +216,19 @@ async function respond(key) {
   await settled();
   const take = (name, value) => edit([{ key: name, value }], true);
   if (state.snapshot.tables) await response.ask(state.snapshot, state.history.text, take, key);
+}
+
+/** Adds a table that is not in the file, as one step. */
+async function add(key) {
+  await settled();
+  try {
+    const { text, refused } = await server.addTable(state.history.text, key);
+    dialogs.withdraw("table");
+    if (text) replace(text);
+    else dialogs.notice("table", `${place(key)} is not added: ${brief(refused)}`, [], "warning");
+  } catch (error) {
+    complain("table", error);
+  }
 }
 
 function pin() {

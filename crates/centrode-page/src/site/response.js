@@ -13,7 +13,7 @@ const SIZE = { width: 250, height: 130 };
 /** Every number of the design that can be moved: key and value. */
 function numbers(snapshot) {
   const found = [];
-  for (const field of snapshot.tables.flatMap((table) => table.fields)) {
+  for (const field of snapshot.tables.flatMap((table) => (table.absent ? [] : table.fields))) {
     if (typeof field.value === "number") found.push([field.key, field.value]);
     if (Array.isArray(field.value)) {
       field.value.forEach((value, i) => {
@@ -26,7 +26,7 @@ function numbers(snapshot) {
 
 /** The field of a number. */
 function fieldOf(snapshot, name) {
-  const fields = snapshot.tables.flatMap((table) => table.fields);
+  const fields = snapshot.tables.flatMap((table) => (table.absent ? [] : table.fields));
   return fields.find((field) => field.key === name.replace(/\[\d+\]$/, "")) ?? {};
 }
 

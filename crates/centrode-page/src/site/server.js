@@ -119,6 +119,7 @@ export const reread = () => json(ask("reread", "POST", {}));
 export const choices = (text) => json(ask("choices", "POST", { text }));
 export const fault = (text) => json(ask("fault", "POST", { text }));
 export const compose = (text, input, gesture) => json(ask("compose", "POST", { text, input, gesture }));
+export const addTable = (text, key) => json(ask("table", "POST", { text, key }));
 export const search = (options, signal) => json(ask("search", "POST", options, signal));
 export const searched = () => json(ask("search", "GET"));
 export const forgetSearch = () => json(ask("search/all", "DELETE"));

@@ -1,3 +1,5 @@
+mod table;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
@@ -8,6 +10,8 @@ use super::follower::refollowed;
 use super::kind::switched;
 use super::machine::retyped;
 use super::plane::moved;
+pub(super) use table::can_be_added;
+pub use table::with_table;
 
 /// A new value for a key of the design file.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

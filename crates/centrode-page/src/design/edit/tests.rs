@@ -158,3 +158,43 @@ fn a_list_that_grows_or_shrinks_keeps_its_lines_and_comments() {
     assert!(shrunk.ends_with("] # flat\n"), "{shrunk}");
     shrunk.parse::<toml::Table>().expect("toml");
 }
+
+#[test]
+fn a_table_that_is_added_gives_a_mechanism_or_is_refused_with_the_reason() {
+    let (mut added, mut refused) = (0, 0);
+    for family in FAMILIES.words() {
+        let text = FAMILIES.template(family).expect("a template");
+        let comments = |text: &str| text.lines().filter(|line| line.contains('#')).count();
+        for table in tables(text).into_iter().filter(|table| table.addable) {
+            let key = &table.key;
+            match with_table(text, key) {
+                Ok(made) => {
+                    let now = tables(&made).into_iter().find(|own| own.key == *key);
+                    assert!(now.is_some_and(|own| !own.absent), "{key}\n{made}");
+                    assert_eq!(comments(&made), comments(text), "{key}");
+                    added += 1;
+                }
+                // A law does not fit every body, and a keyway needs a bore.
+                Err(reason) => {
+                    assert!(
+                        key.starts_with("bodies.")
+                            || key == "frame.circle"
+                            || reason.contains("bore"),
+                        "{key}: {reason}"
+                    );
+                    refused += 1;
+                }
+            }
+        }
+    }
+    assert!(added > 10 && refused > 0, "{added} {refused}");
+    let leg = FAMILIES.template("machine").expect("a template");
+    let still = with_table(leg, "bodies.crank.law.cam").expect_err("no segments are known");
+    assert!(still.contains("segments"), "{still}");
+    let pair = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.2\nmodule = 2\ntooth_count = 23\n[driver]\nbore = 12\n";
+    let keyed = with_table(pair, "driver.keyway").expect("a keyway");
+    assert!(
+        keyed.contains("keyway = { depth = 1.8, width = 4 }"),
+        "{keyed}"
+    );
+}

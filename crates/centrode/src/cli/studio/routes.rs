@@ -41,6 +41,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
         )
         .route("/solve", post(solve))
         .route("/compose", post(compose))
+        .route("/table", post(table))
         .route("/progress/{page}", get(progress))
         .route("/fault", post(fault))
         .route("/save", post(save))
@@ -202,6 +203,22 @@ async fn compose(Json(ask): Json<Compose>) -> Result<Response, Refused> {
         Ok(made) => Json(made).into_response(),
         Err(refusal) => Json(refusal).into_response(),
     })
+}
+
+#[derive(Deserialize)]
+struct AddTable {
+    text: String,
+    key: String,
+}
+
+/// Text with a table that was not in the design; or the reason why it is not added.
+async fn table(Json(ask): Json<AddTable>) -> Result<Response, Refused> {
+    let made = computed(move || page::with_table(&ask.text, &ask.key)).await?;
+    Ok(Json(match made {
+        Ok(text) => json!({ "text": text }),
+        Err(reason) => json!({ "refused": reason }),
+    })
+    .into_response())
 }
 
 /// Share of the checks of a page that is done; null while nothing is solved for it.
