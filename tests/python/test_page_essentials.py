@@ -4,7 +4,7 @@ import pytest
 import tomllib
 from axe_playwright_python.sync_playwright import Axe
 from conftest import ROOT, design_file
-from page import ARMS, BOX, field, opened, settled
+from page import ARMS, BOX, SHAFT, field, opened, settled
 from playwright.sync_api import expect
 
 JANSEN = ROOT / "tests" / "designs" / "jansen-leg.toml"
@@ -94,3 +94,28 @@ def test_a_body_shows_no_law_that_does_nothing(browser, tmp_path):
         expect(law).to_be_hidden()
         assert design.read_text() == before
         expect(page.locator("#undo")).to_be_disabled()
+
+
+@pytest.mark.parametrize("design", [SHAFT, ARMS], ids=lambda design: design.stem)
+def test_optimise_is_never_grey_without_its_reason_in_sight(browser, tmp_path, design):
+    with opened(browser, tmp_path, design) as (page, _):
+        optimise, reason = page.locator("#optimise"), page.locator("#unsearched")
+        assert reason.is_visible() == optimise.is_disabled()
+        if optimise.is_disabled():
+            expect(reason).to_have_text(f"Optimise is not possible: {optimise.get_attribute('title')}")
+
+
+def test_the_bar_of_a_missed_goal_shows_where_the_goal_is_met(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, _):
+        expect(page.locator(".goal.unmet .target")).to_have_count(page.locator(".goal.unmet").count())
+        expect(page.locator(".goal.met .target")).to_have_count(0)
+        end = "one => one.parentElement.getBoundingClientRect().right - one.getBoundingClientRect().right"
+        assert abs(page.locator(".goal.unmet .target").first.evaluate(end)) < 1
+
+
+def test_the_picture_of_a_wide_window_stays_while_the_charts_scroll(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, _):
+        page.locator(".middle").evaluate("pane => pane.scrollTo(0, pane.scrollHeight)")
+        expect(page.locator(".chart").first).not_to_be_in_viewport()
+        expect(page.locator("#stage")).to_be_in_viewport(ratio=0.99)
+        expect(page.locator(".chart").last).to_be_in_viewport()

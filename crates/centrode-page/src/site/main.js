@@ -305,7 +305,10 @@ async function start() {
   const { file: name, text, recovered, formats, purposes, methods, unsearched, started } = await server.design();
   byId("start").hidden = !started;
   const usual = byId("optimise").title;
-  searchable = (reason) => Object.assign(byId("optimise"), { disabled: Boolean(reason), title: reason ?? usual });
+  searchable = (reason) => {
+    Object.assign(byId("optimise"), { disabled: Boolean(reason), title: reason ?? usual });
+    Object.assign(byId("unsearched"), { hidden: !reason, textContent: reason ? `Optimise is not possible: ${reason}` : "" });
+  };
   searchable(unsearched);
   state.history = new History(text);
   file = new DesignFile(name, formats, purposes, state.history, { settled, replace, complain, saved: buttons });

@@ -111,7 +111,9 @@ function bar(goal, before) {
     element("div", { class: "head" }, element("span", {}, `${goal.number}. ${goal.title}`, goal.paper === null ? null : element("span", { class: "quiet" }, ` goal ${goal.paper} of the paper`)),
       element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
     element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
-      "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, required ${goal.required}, ${goal.verdict}` }, fill),
+      "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, required ${goal.required}, ${goal.verdict}` }, fill,
+      // The bar of a missed goal ends where the goal is met.
+      state === "unmet" ? element("span", { class: "target", "aria-hidden": "true" }) : null),
     element("div", { class: "detail" }, `${goal.required}${goal.unit && ` ${goal.unit}`}; ${goal.verdict}${goal.spare ? `, ${goal.spare} to spare` : ""}`));
 }
 
