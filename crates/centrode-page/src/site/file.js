@@ -65,9 +65,9 @@ export class DesignFile {
 
   /** The file has been changed by others: whose work stays? */
   async settle({ message, gone }) {
-    const words = element("p", {}, `${message}. Saving would ${gone ? "make it anew" : "write over that"}.`);
-    const answer = await dialogs.ask(gone ? "Not there" : "Changed on disk", [words],
-      [["", "Cancel"], ...(gone ? [] : [["load", "Load the file"]]), ["over", gone ? "Save" : "Write over it", gone ? "main" : "danger"]]);
+    const words = element("p", {}, `${message}. Saving would ${gone ? "create it again" : "overwrite the file on disk"}.`);
+    const answer = await dialogs.ask(gone ? "File missing" : "Changed on disk", [words],
+      [["", "Cancel"], ...(gone ? [] : [["load", "Load the file"]]), ["over", gone ? "Save" : "Overwrite", gone ? "main" : "danger"]]);
     if (answer === "over") await this.save(true);
     if (answer === "load") await this.load();
   }
@@ -104,7 +104,7 @@ export class DesignFile {
       dialogs.notice("link", "The design of the link is the one that is shown.");
       return;
     }
-    dialogs.notice("link", `The link holds ${link.named(text)}. Opened, it takes the place of what is shown; Undo brings that back, and ${this.name} stays until it is saved.`,
+    dialogs.notice("link", `The link holds ${link.named(text)}. If you open it, it replaces the design that is shown. Undo brings that back, and ${this.name} does not change until you save.`,
       [["Open it", () => this.page.replace(text)]], "warning");
   }
 

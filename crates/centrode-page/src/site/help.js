@@ -5,7 +5,7 @@ import { byId, element } from "./elements.js";
 
 const KEYS = [
   ["Everywhere", [
-    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S", "save"], ["?", "these keys"], ["Tab", "go on to the next number, point or button"],
+    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S", "save"], ["?", "these keys"], ["Tab", "next number, point or button"],
   ]],
   ["A number", [
     ["↑ ↓", "step; with Shift ten times, with Alt a tenth"], ["Enter", "take what is typed: 2*1.5, 1/8 in, pi/9 rad"], ["drag its name", "change it"],
@@ -13,7 +13,7 @@ const KEYS = [
     ["F1, or a tap on its name", "what it is, and its range"],
   ]],
   ["The drawing", [
-    ["All, and a gear's name", "look at that gear from nearby"],
+    ["All, and a gear's name", "zoom to that gear"],
     ["← → ↑ ↓, or drag", "move the view"], ["+ −, wheel, or two fingers", "zoom"], ["0, or double-click", "show everything"], ["Space", "play or pause"],
   ]],
   ["A point of the drawing", [
@@ -28,7 +28,7 @@ const KEYS = [
   ]],
   ["The input, below the drawing", [["← →", "turn by a degree"], ["Page up, Page down", "turn by ten degrees"]]],
   ["Curves", [
-    ["point at one", "read all of them there"], ["click, or drag across", "lead the machine there"],
+    ["point at one", "read all of them there"], ["click, or drag across", "move the machine there"],
     ["drag along the axis", "zoom; double-click shows the whole cycle"], ["Enlarge", "one chart over the whole width"],
   ]],
   ["Borders between the panes", [
@@ -38,12 +38,12 @@ const KEYS = [
 
 /** What to look at, its name, and what there is to know of it. */
 const STEPS = [
-  ["#form", "Numbers", "Every number of the design. Type one, step it with the arrow keys, or drag its name. It may be worked out, 2*1.5, and have a unit, 1/8 in."],
+  ["#form", "Numbers", "The numbers of the design. Type one, step it with the arrow keys, or drag its name. A formula such as 2*1.5 or a unit such as 1/8 in is possible. The essential numbers come first."],
   ["#stage", "Drawing", "The machine to scale. Drag to move the view, turn the wheel to zoom. Blue points can be dragged, too, or moved with the arrow keys."],
-  [".transport", "Motion", "Play the machine, or lead it through its cycle by the slider."],
-  ["#verdict", "Goals and findings", "Goals follow while a point is dragged. The status is as good as the worst finding below it. Figures come last."],
-  ["#charts", "Curves", "A pointer over one curve reads all of them. A drag along the axis zooms. Each can be taken as CSV, SVG or PNG."],
-  [".bar .tools", "Take it away", "Undo, pin a design to compare the next with, search for a better one, copy a link, export files, save. The button ? lists keys, and this tour."],
+  [".transport", "Motion", "Play the machine, or move it through its cycle with the slider."],
+  ["#verdict", "Goals and findings", "Goals are updated while a point is dragged. The status is that of the worst finding below it. Figures come last."],
+  ["#charts", "Curves", "Point at one curve to read all of them. Drag along the axis to zoom. Each can be saved as CSV, SVG or PNG."],
+  [".bar .tools", "Tools", "Undo, store a design for comparison, search for a better one, copy a link, export files, save. The button ? lists the keys and starts this tour."],
 ];
 const SEEN = "centrode-tour";
 

@@ -37,5 +37,5 @@ function toggle({ field, row, remark }) {
   }
   const range = [["at least", field.minimum], ["at most", field.maximum]].filter(([, value]) => value !== undefined).map((words) => words.join(" "));
   const words = [field.doc, ...range].filter(Boolean).join("; ");
-  remark.before(element("p", { class: "hint", role: "status" }, words || "No more is known of it than its name."));
+  remark.before(element("p", { class: "hint", role: "status" }, words || "There is no description of this number."));
 }

@@ -28,7 +28,7 @@ export async function written(text) {
 /** The text of a design in an address; an error says why there is none. */
 export async function read(address) {
   const fragment = address.slice(address.indexOf("#")).trim();
-  if (!fragment.startsWith(MARK)) throw new Error("The link is of another kind than this version of centrode reads.");
+  if (!fragment.startsWith(MARK)) throw new Error("The link is of another kind: this version of centrode cannot read it.");
   if (fragment.length > LONGEST) throw new Error(`The link is too long: ${fragment.length} characters, where ${LONGEST} is the most.`);
   const letters = fragment.slice(MARK.length);
   if (!/^[\w-]+$/.test(letters)) throw new Error("The link is damaged: it has characters that no link has.");

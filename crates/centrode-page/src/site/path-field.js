@@ -117,7 +117,7 @@ export class Field {
       element("li", { "data-fault": name }, this.swatch(i), element("span", {}, `${words} `, element("span", { class: "quiet" }, `${Math.round((100 * count) / map.fault.length)} %`)))));
     byId("field-count").textContent = map
       ? `${map.possible} of ${map.fault.length} axes tried are possible: ${map.inside} inside the path, ${map.possible - map.inside} outside.`
-      : "There is no path to try axes for.";
+      : "Draw a path first: axes are tried for a path.";
     this.scale();
     this.stage.draw();
   }

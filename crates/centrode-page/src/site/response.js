@@ -92,7 +92,7 @@ export async function ask(snapshot, text, take, first) {
       const gaps = answers.charts.some((chart) => chart.figures.includes(null));
       words.textContent = answers.charts.length === 0
         ? "no value between these makes a mechanism, or none changes a figure"
-        : `Across: ${name}${units.get(name) && `, ${units.get(name)}`}. Blue: the design as it is. Dashed: the range that is wanted.${gaps ? " No point: no mechanism, or no such figure." : ""}`;
+        : `Across: ${name}${units.get(name) && `, ${units.get(name)}`}. Blue: the design as it is. Dashed: the required range.${gaps ? " No point: no mechanism, or no such figure." : ""}`;
       for (const chart of answers.charts) draw(place, answers.values, chart, known.get(name));
       await overlay(name, answers, signal);
     } catch (error) {

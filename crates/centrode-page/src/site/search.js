@@ -36,8 +36,8 @@ export class Search {
     this.evaluations = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-evaluations", value: "20000" });
     this.start = element("button", { type: "button", class: "main", id: "search-start", onclick: () => this.begin() }, "Start");
     this.stop = element("button", { type: "button", id: "search-stop", onclick: () => this.end() }, "Stop");
-    this.take = element("button", { type: "button", class: "main", id: "search-take", onclick: () => this.close(true) }, "Take");
-    this.drop = element("button", { type: "button", id: "search-drop", onclick: () => this.close(false) }, "Drop");
+    this.take = element("button", { type: "button", class: "main", id: "search-take", onclick: () => this.close(true) }, "Use it");
+    this.drop = element("button", { type: "button", id: "search-drop", onclick: () => this.close(false) }, "Discard");
     this.bar = element("progress", { max: 1, value: 0, "aria-label": "Evaluations done" });
     this.words = element("p", { class: "detail", role: "status" });
     this.missed = element("table", { class: "missed" });
@@ -176,7 +176,7 @@ export class Search {
     const last = state.history.at(-1);
     const done = last?.evaluations ?? 0;
     this.bar.value = Math.min(1, done / state.evaluations);
-    const worth = !last ? "" : last.violation > 0 ? `; goals missed by ${last.violation.toPrecision(4)} of their scales in all` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
+    const worth = !last ? "" : last.violation > 0 ? `; total miss ${last.violation.toPrecision(4)} (0 = every goal met)` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
     this.words.textContent = `${done} evaluations${worth}${state.ended ? `; ${ENDED[state.ended] ?? state.ended}` : ""}${state.remark ? `; ${state.remark}` : ""}`;
     if (!this.box.hidden) this.draw(state.history);
   }
@@ -223,6 +223,6 @@ export class Search {
 
 function whole(input) {
   const value = Number(input.value.trim());
-  if (!Number.isSafeInteger(value) || value < 0) throw new Error(`${input.value} is no whole number`);
+  if (!Number.isSafeInteger(value) || value < 0) throw new Error(`${input.value} is not a whole number`);
   return value;
 }

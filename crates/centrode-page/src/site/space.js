@@ -113,7 +113,7 @@ export class Space {
     if (text === this.seen) return;
     this.seen = text;
     if (!sound || text === this.text) return;
-    this.say("Shown is the design before the change …");
+    this.say("The previous design is shown …");
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.load(), REST);
   }
