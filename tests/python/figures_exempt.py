@@ -47,6 +47,7 @@ EXEMPT = {
             r"smaller than 2 MB",
             r"30,000 characters",
             r"narrower than 1060 pixels",
+            r"within 12 pixels",
             r"1,048,576 bytes",
             r"no finer than 1e-7",
             r"no more than 20,000 inputs",

@@ -77,7 +77,7 @@ def shown(browser, url, script="", ready=settled, toured=True, size=(1440, 900),
     ready(page)
     yield page
     context.close()
-    assert not complaints
+    assert not complaints, complaints
 
 
 @contextmanager

@@ -167,11 +167,13 @@ pub(super) fn spread<'t>(table: &mut DeTable<'t>) {
         .is_some_and(|file| file.get_ref().is_table());
     if is_kind
         && is_read
-        && let Some(file) = table.remove(FILE)
+        && let Some((name, file)) = table.remove_entry(FILE)
         && let DeValue::Table(samples) = file.into_inner()
     {
         table.remove(COLUMN);
         for (key, value) in samples {
+            // Errors of the samples are at the key that names the file.
+            let key = Spanned::new(name.span(), key.into_inner());
             table.entry(key).or_insert(value);
         }
     }

@@ -34,7 +34,7 @@ pub(super) fn nearest_ratio(turns: f64) -> (u32, u32) {
 }
 
 /// Scaling of samples with a mean ratio to that of the pair, or to the nearest simple one, and its factor. There is none within
-/// rounding, and none for the exact mean of another pair.
+/// rounding, and none for the simple mean ratio of another pair.
 pub(super) fn scaling(
     key: &'static str,
     mean: f64,
@@ -55,8 +55,8 @@ pub(super) fn scaling(
         return Ok((Some(scaling), factor));
     }
     match exact {
-        Some(_) => Ok((None, 1.0)),
-        None => Err(PitchError::MeanOff {
+        Some((driver, driven)) if driver.max(driven) <= SIMPLE_TURNS => Ok((None, 1.0)),
+        _ => Err(PitchError::MeanOff {
             key,
             mean,
             ratio,

@@ -17,10 +17,10 @@ const NORMAL_MEDIAN: f64 = 0.6745;
 /// Minimum number of samples in which noise is looked up: with fewer, few features are in half of the samples.
 const FEWEST: usize = 32;
 
-/// Root mean square of the relative curvature of a pitch curve due to noise above which samples are noisy: three times it, which is
-/// reached on every tooth, doubles the curvature or makes the curve concave. At 3 gears are cut off by noise without the finding,
-/// at 0.03 tables with four digits are noisy.
-const MOST_CURVATURE: f64 = 1.0 / 3.0;
+/// Root mean square of the relative curvature of a pitch curve due to noise above which samples are noisy. Peaks of noise are three
+/// times as high, so they change the curvature by more than half. At 2 noise undercuts all teeth without the finding, at 0.02 tables
+/// with four digits are noisy.
+const MOST_CURVATURE: f64 = 0.2;
 
 /// Probability that noise alone makes a harmonic count as part of the law: below it the remedy keeps too few harmonics.
 const CHANCE: f64 = 0.01;

@@ -116,6 +116,11 @@ export class ComposePanel {
     return [...this.controls.values()].find(({ field, input }) => ["pin", "body"].includes(field.kind) && !input.value && field.prompt)?.field ?? null;
   }
 
+  /** The first pick without a value, whether a click or a list is to fill it; a gesture is complete without any. */
+  get missing() {
+    return [...this.controls.values()].find(({ field, input }) => ["pin", "body", "figure"].includes(field.kind) && !input.value)?.field ?? null;
+  }
+
   /** Writes what was clicked into the field of a pick: a point, or a new point of a body. */
   pick({ id, kind }, point, body, place) {
     const control = this.controls.get(id);

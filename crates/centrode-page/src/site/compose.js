@@ -154,13 +154,13 @@ export class Compose {
   /** Shows the part as it would be, with the numbers as they would be measured. */
   async preview(at) {
     const { tool } = this;
-    if (!tool || tool.id === "select" || this.panel.due) return;
+    if (!tool || tool.id === "select" || this.panel.missing) return;
     this.asked += 1;
     if (this.busy) return;
     this.busy = true;
     let seen = 0;
     let answer = null;
-    while (seen !== this.asked && this.tool === tool) {
+    while (seen !== this.asked && this.tool === tool && !this.panel.missing) {
       seen = this.asked;
       try {
         answer = await this.ask(gesture(tool, this.panel.values, this.hover ?? at));
@@ -181,14 +181,25 @@ export class Compose {
 
   /** Adds the part that the fields and the place describe. */
   async add(at) {
+    // A second click while a part is on its way adds no other.
+    if (this.adding) return;
+    this.adding = true;
+    try {
+      await this.put(at);
+    } finally {
+      this.adding = false;
+    }
+  }
+
+  async put(at) {
     const { tool } = this;
     if (!tool || tool.id === "select") return;
-    const due = this.panel.due;
-    if (due) {
-      this.panel.controls.get(due.id).input.focus();
+    await this.page.settled();
+    const { missing } = this.panel;
+    if (missing) {
+      this.panel.controls.get(missing.id).input.focus();
       return;
     }
-    await this.page.settled();
     let own;
     try {
       own = gesture(tool, this.panel.values, at);
@@ -207,7 +218,8 @@ export class Compose {
     this.hover = null;
     this.ghost = [];
     this.fill();
-    this.say(`${answer.key.split(".").pop()} is added.${answer.other ? " The dashed ghost is the other solution: click it to choose it. " : " "}${this.prompt()}`);
+    if (answer.key.startsWith("bodies.")) this.parts.empty = false;
+    this.say(`Part ${answer.key.split(".").pop()} is added.${answer.other ? " The dashed ghost is the other solution: click it to choose it. " : " "}${this.prompt()}`);
     if (heldBy) (byId(heldBy) ?? this.panel.place.querySelector("select, input")).focus();
   }
 

@@ -158,7 +158,7 @@ fn a_file_that_cannot_be_read_is_named_with_key_and_lines() {
             &["pitch.ratio"],
         ),
         (
-            "1.5\n1.6\n1.7\n1.6\n1.5\n1.4\n1.45\n",
+            "1.51\n1.6\n1.7\n1.6\n1.5\n1.4\n1.457\n",
             file,
             &["mean ratio 1:1", "at most 5 %"],
         ),

@@ -194,7 +194,7 @@ fn a_table_that_is_added_gives_a_mechanism_or_is_refused_with_the_reason() {
     let pair = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.2\nmodule = 2\ntooth_count = 23\n[driver]\nbore = 12\n";
     let keyed = with_table(pair, "driver.keyway").expect("a keyway");
     assert!(
-        keyed.contains("keyway = { depth = 1.8, width = 4 }"),
+        keyed.contains("keyway = { width = 4, depth = 1.8 }"),
         "{keyed}"
     );
 }

@@ -28,7 +28,18 @@ pub(super) fn goal(
     let report = made.check_goals();
     let found = report.goals.iter().find(|goal| goal.name == name);
     let value = found.and_then(|goal| goal.value);
-    let Some(limit) = limit.or(value.map(digits)) else {
+    // Rounded so that the machine as it is meets the goal.
+    let met = |value: f64| {
+        let short = digits(value);
+        let missed = if below { short < value } else { short > value };
+        let last = 10_f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 5.0);
+        match (missed, below) {
+            (false, _) => short,
+            (true, true) => digits(short + last),
+            (true, false) => digits(short - last),
+        }
+    };
+    let Some(limit) = limit.or(value.map(met)) else {
         let why = format!("{figure} is known after the checks only: give a limit");
         return Err(Box::new(Refusal::because(why)));
     };

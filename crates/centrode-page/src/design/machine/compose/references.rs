@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 
 use crate::design::edit::Step;
 
-/// What a word names.
+/// Kind of part that a word names.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Names {
     /// `crank`, or `crank.A`.

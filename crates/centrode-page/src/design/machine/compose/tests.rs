@@ -218,6 +218,19 @@ fn a_goal_begins_with_the_figure_of_the_machine() {
             .contains("[goals.shin]\nfigure = \"shin.foot.y\"\nover = \"minimum\"\nminimum = ")
     );
     assert!(goal.text.starts_with(&text));
+    for (over, below) in [
+        ("minimum", false),
+        ("maximum", true),
+        ("span", false),
+        ("span", true),
+    ] {
+        let part = json!({ "part": "goal", "figure": "shin.foot.x", "over": over, "below": below });
+        let file = FAMILIES
+            .read(made(&text, 0.0, part).text.as_bytes())
+            .expect("a design");
+        let report = file.mechanism().expect("a machine").check_goals();
+        assert_eq!(report.goals[0].met(), Some(true), "{over} {below}");
+    }
 }
 
 /// Poses of all links over the cycle, in no order.
