@@ -11,6 +11,7 @@ mod pair;
 mod pitch;
 mod reverse;
 mod shaft;
+mod sweep;
 mod three_arm;
 
 criterion_main!(
@@ -23,5 +24,6 @@ criterion_main!(
     pitch::benches,
     reverse::benches,
     shaft::benches,
+    sweep::benches,
     three_arm::benches,
 );

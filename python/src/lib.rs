@@ -27,6 +27,7 @@ mod shaft;
 mod sheet;
 mod six_bar;
 mod solid;
+mod sweep;
 mod table;
 mod three_arm;
 mod tool;
@@ -65,6 +66,7 @@ mod _centrode {
         shaft::MovingBox,
         shaft::SpiralShaft,
         six_bar::SixBar,
+        sweep::_sweep,
         three_arm::ThreeArm,
         tool::{Rack, Shaper},
         wait::_panic,

@@ -185,7 +185,7 @@ def test_a_sweep_tells_designs_and_variants_apart() -> None:
     text = ct.template("three-arm")
     with pytest.raises(TypeError, match="several designs"):
         ct.sweep(text)  # type: ignore[call-overload]
-    with pytest.raises(TypeError, match="one three-arm design"):
+    with pytest.raises(TypeError, match="one design"):
         ct.sweep([text], over={"r1": [1.0]})  # type: ignore[call-overload]
 
 

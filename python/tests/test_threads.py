@@ -68,6 +68,10 @@ LONG = {
     "mesh": (PAIR, "while True: pair.driver.mesh(1e-4)"),
     "arms": (ARMS, "while True: arms.check()"),
     "sweep": (ARMS, "arms.sweep({{'r1': np.linspace(15, 27, 3_000_000)}})"),
+    "sweep of any number": (
+        PAIR,
+        "ct.sweep(pair, over={{'pitch.eccentricity': np.linspace(0.1, 0.3, 100_000)}}, depth='made', chunk=100_000)",
+    ),
     "optimise": (ARMS, "arms.optimise('de', evaluations=10**9)"),
     "guided": (ARMS, "while True: arms.optimise('guided', evaluations=10**9)"),
     "response": (ARMS, "arms.response('r1', np.linspace(15, 27, 100_000).tolist())"),

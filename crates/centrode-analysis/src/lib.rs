@@ -19,12 +19,12 @@ mod machine;
 mod no_screws;
 mod progress;
 mod report;
-mod response;
 mod rounding;
 mod severity;
 mod shaft;
 mod side_by_side;
 pub mod six_bar;
+mod sweep;
 mod three_arm;
 mod unit;
 
@@ -49,10 +49,10 @@ pub use machine::{
 };
 pub use progress::Progress;
 pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Table};
-pub use response::{Answer, Response};
 pub use severity::Severity;
 pub use shaft::{FIGURES as SHAFT_FIGURES, check_moving_box, check_shaft};
 pub use side_by_side::prepare_threads;
+pub use sweep::{Answer, Sweep};
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, FIGURES as THREE_ARM_FIGURES, TrainTeeth,
     Variants, VariantsError, arm_clearance_course, between_arms, carrier_turn, check_arms,

@@ -31,7 +31,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         self.check_made()
     }
 
-    /// Checks the motion and the parts as they are made: teeth, too, but not their contact.
+    /// Checks the motion and the parts as they are made, without contact; by default everything.
     fn check_made(&self) -> Report {
         self.check()
     }

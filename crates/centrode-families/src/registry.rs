@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use centrode_analysis::{Report, Response};
+use centrode_analysis::{Report, Sweep};
 use centrode_gear::pitch::SAMPLE_TABLES;
 use centrode_spec::{
     self, Design, DesignError, DesignFamily, DesignFault, DesignFile, DesignSpec, MechanismError,
@@ -149,38 +149,38 @@ impl Family {
         (self.widen)(design)
     }
 
-    /// Response to the first depth that is enough; to the whole depth if none is.
+    /// Checks variants of a design to a depth, on all cores: each has its own values at the keys, in the file's units.
     ///
     /// # Errors
-    /// [`DesignError`] if the key is not that of a number of the design.
-    pub fn response_until(
+    /// [`DesignError`] if a key is not that of a number of the design, or is given twice.
+    pub fn sweep(
         &self,
         design: &dyn Design,
-        key: &str,
-        values: &[f64],
-        is_enough: impl Fn(&Response) -> bool,
-    ) -> Result<Response, DesignError> {
-        for depth in [Depth::Motion, Depth::Made] {
-            let response = self.response(design, key, values, depth)?;
-            if is_enough(&response) {
-                return Ok(response);
-            }
-        }
-        self.response(design, key, values, Depth::Whole)
+        keys: &[&str],
+        variants: &[Vec<f64>],
+        depth: Depth,
+    ) -> Result<Sweep, DesignError> {
+        Sweep::evaluate(design, keys, variants, |design| self.report(design, depth))
     }
 
-    /// Response of the figures of a design to one of its numbers, at the values given in the file's unit.
+    /// Checks variants of a design to the first depth that is enough; to the whole depth if none is.
     ///
     /// # Errors
-    /// [`DesignError`] if the key is not that of a number of the design.
-    pub fn response(
+    /// [`DesignError`], as of [`Self::sweep`].
+    pub fn sweep_until(
         &self,
         design: &dyn Design,
-        key: &str,
-        values: &[f64],
-        depth: Depth,
-    ) -> Result<Response, DesignError> {
-        Response::evaluate(design, key, values, |design| self.report(design, depth))
+        keys: &[&str],
+        variants: &[Vec<f64>],
+        is_enough: impl Fn(&Sweep) -> bool,
+    ) -> Result<Sweep, DesignError> {
+        for depth in [Depth::Motion, Depth::Made] {
+            let sweep = self.sweep(design, keys, variants, depth)?;
+            if is_enough(&sweep) {
+                return Ok(sweep);
+            }
+        }
+        self.sweep(design, keys, variants, Depth::Whole)
     }
 }
 

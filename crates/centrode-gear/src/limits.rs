@@ -5,7 +5,7 @@ use super::{
     flank::{Flank, Side},
     pair::{GearPair, PlannedPair, parameters},
     pitch::{Circle, PitchSpec},
-    rolling::{CurvatureRange, Member, PitchContact},
+    rolling::{CurvatureRange, Member},
     tool::{Tool, ToolKind},
 };
 
@@ -65,7 +65,7 @@ impl PlannedPair {
         let rolling = self.rolling();
         let contact = rolling.pitch_contact(rolling.parameter_at_angle(phi));
         let alpha = self.pressure_angle();
-        let inclination = inclination(&contact);
+        let inclination = angle(contact.inclination);
         let [driver_radius, driven_radius] = contact.radii;
         let [driver_curvature, driven_curvature] = rolling.curvatures(contact.parameter);
         PitchPoint {
@@ -86,7 +86,7 @@ impl PlannedPair {
         let rolling = self.rolling();
         // |alpha - mu| and |alpha + mu|: the greater of both.
         let alpha = self.pressure_angle();
-        let steeper = |t: f64| alpha + inclination(&rolling.pitch_contact(t)).abs();
+        let steeper = |t: f64| alpha + angle(rolling.inclination(t)).abs();
         let found = maximum(steeper, &rolling.pieces());
         Extreme {
             input: rolling.angle(found.input),
@@ -211,9 +211,8 @@ impl Limits {
     }
 }
 
-/// Angle mu from the circle about the driver's axis to the common tangent of the pitch curves, rad: tan mu = r'/r.
-fn inclination(contact: &PitchContact) -> f64 {
-    let (cos, sin) = contact.inclination;
+/// Angle by its cosine and sine, rad.
+fn angle((cos, sin): (f64, f64)) -> f64 {
     sin.atan2(cos)
 }
 

@@ -278,11 +278,16 @@ fn phase(
     pitch: f64,
     parameters: &TeethParameters,
 ) -> Result<(f64, bool), TeethError> {
-    let difference = self_mating_difference(rolling, pitch);
+    let small = 1e-9 * rolling.center_distance();
+    // Only the error of a congruent pair states a difference that is not small.
+    let enough = match parameters.phase {
+        Phase::Congruent => f64::INFINITY,
+        _ => small,
+    };
+    let difference = self_mating_difference(rolling, pitch, enough);
     let [driver, driven] = parameters.profile_shifts;
     let [one, two] = &parameters.tools;
     let symmetric = parameters.thickness_split == 0.5 && driver == driven && one == two;
-    let small = 1e-9 * rolling.center_distance();
     let required = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
     let congruent_at = |phase: f64| {
         difference.is_some_and(|(mirror, d)| {
@@ -304,8 +309,8 @@ fn phase(
     }
 }
 
-/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum remaining deviation.
-fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
+/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum remaining deviation; or the first one that is `enough`.
+fn self_mating_difference(rolling: &Rolling, pitch: f64, enough: f64) -> Option<(f64, f64)> {
     /// Number of points of the pitch curve that are compared. Fewer can miss a deviation, more take longer.
     const SAMPLES: u32 = 96;
     if rolling.mean_ratio() != (1, 1) {
@@ -320,11 +325,17 @@ fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     }
     let (low, high) = rolling.extreme_arcs();
     let mirror = low + high;
+    if rolling.symmetry().mates_itself {
+        return Some((mirror, 0.0));
+    }
     let mut difference = 0.0_f64;
     for i in 0..SAMPLES {
         let s = length * f64::from(i) / f64::from(SAMPLES);
         difference =
             difference.max((radius(s) + radius(mirror - s) - rolling.center_distance()).abs());
+        if difference >= enough {
+            break;
+        }
     }
     Some((mirror, difference))
 }

@@ -727,7 +727,10 @@ fn a_number_is_set_where_it_stands() {
         ("tray.distance", 240.0),
         ("work.plant_spacing", 120.0),
     ] {
-        let design = published().numbered(key).expect("a number").with(value);
+        let design = published()
+            .numbered(&[key])
+            .expect("a number")
+            .with(&[value]);
         let written = design.expect("a design").to_toml().expect("text");
         let root: toml::Value = toml::from_str(&written).expect("toml");
         let steps = key.replace('[', ".").replace(']', "");
@@ -754,7 +757,7 @@ fn keys_that_hold_no_number_are_refused() {
         "arm.tip_distanc",
         "name",
     ] {
-        assert!(published().numbered(key).is_err(), "{key}");
+        assert!(published().numbered(&[key]).is_err(), "{key}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Response of the figures of a design to one of its numbers, for the page.
 
-use centrode_analysis::{Goal, Response, Unit};
+use centrode_analysis::{Goal, Sweep, Unit};
 use centrode_families::FAMILIES;
 use serde::{Deserialize, Serialize};
 
@@ -53,16 +53,18 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
         ));
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
-    let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
+    let values: Vec<Vec<f64>> = (0..COUNT)
+        .map(|i| vec![ask.from + step * f64::from(i)])
+        .collect();
     // Without goals, figures that change are shown.
-    let shows = |found: &Response| {
+    let shows = |found: &Sweep| {
         found.has_goals() || found.answers().iter().any(|answer| moves(&answer.figures))
     };
     let response = file
         .family()
-        .response_until(file.design(), &ask.key, &values, shows);
+        .sweep_until(file.design(), &[&ask.key], &values, shows);
     let response = response.map_err(|error| error.message())?;
-    let given = &response.values;
+    let given: Vec<f64> = response.variants.concat();
     // For a key of whole numbers several values may round to the same number.
     let kept: Vec<usize> = (0..given.len())
         .filter(|&i| i == 0 || given[i] != given[i - 1])

@@ -199,7 +199,7 @@ pub fn check_varied(
             let why = "is a requirement: a search varies only numbers of the machine";
             return Err(refused(why.into()));
         }
-        let numbered = design.numbered(key);
+        let numbered = design.numbered(&[key]);
         numbered.map_err(|error| refused(error.message()))?;
     }
     Ok(())

@@ -5,7 +5,7 @@ use crate::design::named;
 use crate::error::{Answer, Raised, finite, tolerance as within};
 use crate::forces::{self, Names};
 use crate::wait::wait;
-use crate::{files, solid};
+use crate::{files, solid, sweep};
 use centrode::family::{self, Depth, Family};
 use centrode::sheet_data;
 use centrode_export::linked::tabulated;
@@ -154,14 +154,10 @@ impl Mechanism {
             finite("values", value)?;
         }
         let key = self.0.design().key_of(parameter);
+        let variants: Vec<Vec<f64>> = values.into_iter().map(|value| vec![value]).collect();
         let found = self.ask(py, move |machine| {
-            family.response(machine.design(), &key, &values, depth)
+            family.sweep(machine.design(), &[&key], &variants, depth)
         })??;
-        let named = PyDict::new(py);
-        for answer in found.answers() {
-            let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
-            named.set_item(answer.name, numpy::PyArray1::from_iter(py, figures))?;
-        }
-        Ok(named)
+        Ok(sweep::figures(py, &found)?)
     }
 }

@@ -294,8 +294,8 @@ impl Mechanism {
     ///     parameter: Key in the design file, such as "arm.tip_distance", or name of a parameter, such as "r1", "crank"
     ///         or "pivot_x".
     ///     values: Values of the parameter in the unit of the design file: mm, degrees.
-    ///     depth: Depth of the check at every value: "motion" (goals and figures that need no teeth), "made" (also teeth as
-    ///         made) or "whole" (everything that `check` reports).
+    ///     depth: Depth of the check at every value: "motion" (goals and figures that need no teeth), "made" (for a gear
+    ///         pair also its teeth as cut) or "whole" (everything that `check` reports).
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))

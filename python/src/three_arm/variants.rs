@@ -6,15 +6,15 @@ use centrode_analysis::{Variants, VariantsError};
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
-use pyo3::prelude::{Bound, PyResult, Python};
+use pyo3::prelude::{Bound, Python};
 use pyo3::types::{PyDict, PyDictMethods};
 
 use crate::array::Values;
 use crate::error::{Answer, Raised};
+use crate::sweep::count;
 use crate::wait::wait;
 
-/// Maximum number of variants and inputs that memory holds.
-const MOST: usize = 50_000_000;
+/// Maximum number of inputs that memory holds.
 const MAX_INPUTS: usize = 100_000;
 
 /// Figures by name, one for each variant.
@@ -57,32 +57,4 @@ fn key(error: &VariantsError) -> &'static str {
         VariantsError::Sweep(_) => "pitch",
         _ => "parameters",
     }
-}
-
-/// Number of variants: the length of all arrays.
-fn count(parameters: &BTreeMap<String, Values>) -> PyResult<usize> {
-    let mut count: Option<(usize, &str)> = None;
-    for (name, values) in parameters {
-        let Some(length) = values.length() else {
-            return Err(PyValueError::new_err(format!(
-                "{name} must be a number or a list of numbers"
-            )));
-        };
-        match (length, count) {
-            (None, _) => {}
-            (Some(length), Some((other, first))) if length != other => {
-                return Err(PyValueError::new_err(format!(
-                    "{name} has {length} values, but {first} has {other}"
-                )));
-            }
-            (Some(length), _) => count = Some((length, name)),
-        }
-    }
-    let count = count.map_or(1, |(count, _)| count);
-    if count > MOST {
-        return Err(PyValueError::new_err(format!(
-            "{count} variants are too many for one call; the limit is {MOST}"
-        )));
-    }
-    Ok(count)
 }

@@ -105,6 +105,8 @@ fn planned(pair: &PlannedPair) -> Report {
 /// Figures and findings of the pitch curves and the teeth, and the pair that remains after a cut of its width.
 fn made(pair: &GearPair) -> (Report, Option<CutPair>) {
     let mut report = planned(pair);
+    // The search for an overlap takes longer than the teeth. It comes first: no teeth avoid it.
+    report.findings.splice(0..0, pitch_overlap(pair));
     let limits = pair.limits();
     let values = &mut report.values;
     values.insert("largest_addendum", pair.largest_addendum());

@@ -94,7 +94,6 @@ pub(super) fn pitch_curves(pair: &PlannedPair, limits: &Limits, report: &mut Rep
                 .add_to(report);
         }
     }
-    report.findings.extend(pitch_overlap(pair));
     report.findings.extend(of_samples::corners(pair));
     report.findings.extend(of_samples::scaled_mean(pair));
     let Extreme {

@@ -181,7 +181,7 @@ fn what_a_family_leaves_out_has_an_answer_all_the_same() {
     ));
     let widened = family.widen(design).expect_err("no bounds").to_string();
     assert_eq!(widened, "the bounds of a disc cannot be widened");
-    let response = family.response(design, "radius", &[1.0, -1.0], Depth::Whole);
+    let response = family.sweep(design, &["radius"], &[vec![1.0], vec![-1.0]], Depth::Whole);
     let answers = response.expect("a number").answers();
     assert_eq!(answers[0].figures, [Some(1.0), None]);
     let schema = DISCS.json_schema();

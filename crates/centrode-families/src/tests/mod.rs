@@ -7,9 +7,9 @@ use super::*;
 mod depth;
 mod disc;
 mod quick;
-mod response;
 mod rooms;
 mod searches;
+mod sweep;
 
 /// Folders of the templates and schemas.
 const FOLDERS: [&str; 3] = [

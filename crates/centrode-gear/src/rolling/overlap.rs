@@ -94,7 +94,8 @@ impl Rolling {
     fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
         let count = PLACES as i64;
         let angle_of_turn = self.driven.total();
-        let at = |number: i64| {
+        // A turn before and a turn after the poses of one turn.
+        let around = |number: i64| {
             let place = &places[number.rem_euclid(count) as usize];
             let turns = number.div_euclid(count) as f64;
             Place {
@@ -103,12 +104,15 @@ impl Rolling {
                 ..*place
             }
         };
+        let around: Vec<Place> = (-count..2 * count).map(around).collect();
+        let at = |number: i64| &around[(number + count) as usize];
         // Radii at equally spaced angles.
         let radii: Vec<f64> = (0..count)
             .map(|k| self.radius(TAU * k as f64 / count as f64))
             .collect();
         let radius = |angle: f64| {
-            let along = (angle / TAU).rem_euclid(1.0) * count as f64;
+            let turns = angle / TAU;
+            let along = (turns - turns.floor()) * count as f64;
             let (k, rest) = (along as usize, along.fract());
             let pair = [radii[k % PLACES], radii[(k + 1) % PLACES]];
             pair[0] + rest * (pair[1] - pair[0])
@@ -118,7 +122,7 @@ impl Rolling {
             let here = at(pose);
             let depth = |steps: i64| {
                 let place = at(pose + way * steps);
-                let point = self.beside(&here, &place);
+                let point = self.beside(here, place);
                 let within = (place.driven - here.driven).abs() < PI;
                 within.then(|| radius(here.angle + point.y.atan2(point.x)) - point.coords.norm())
             };

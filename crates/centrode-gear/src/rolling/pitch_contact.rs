@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, Vector, maximum_of_each};
+use centrode_geometry::{Extreme, Jet, Vector, maximum_of_each};
 
 use super::Rolling;
 
@@ -49,15 +49,19 @@ impl Rolling {
         let jet = self.curve.at(inside);
         let p = jet.point.coords;
         let r = p.norm();
-        let size = r * jet.first.norm();
         PitchContact {
             parameter: t,
             input: self.polar_angle(inside, &jet) + turns * TAU,
             driven_angle: self.driven.at(inside) + turns * self.driven.total(),
             direction: p / r,
             radii: [r, self.center_distance - r],
-            inclination: (p.perp(&jet.first) / size, p.dot(&jet.first) / size),
+            inclination: inclination(&jet),
         }
+    }
+
+    /// Cosine and sine of the angle mu at a parameter, as in [`PitchContact`].
+    pub(crate) fn inclination(&self, t: f64) -> (f64, f64) {
+        inclination(&self.curve.at(self.wrapped(t).0))
     }
 
     /// Curvature of the driver's pitch curve and of the driven gear's at a parameter, 1/mm, positive where convex. By Euler and
@@ -91,4 +95,10 @@ impl Rolling {
             })
         })
     }
+}
+
+fn inclination(jet: &Jet) -> (f64, f64) {
+    let p = jet.point.coords;
+    let size = p.norm() * jet.first.norm();
+    (p.perp(&jet.first) / size, p.dot(&jet.first) / size)
 }

@@ -130,8 +130,8 @@ mod tests {
             let word = serde_json::to_value(dimension).expect("a word");
             assert_eq!(word, dimension.name());
             let value = dimension.of(&design.linkage) + 1.0 + i as f64;
-            let open = design.numbered(dimension.key()).expect("a number");
-            let moved = open.with(value).expect("still a feeder");
+            let open = design.numbered(&[dimension.key()]).expect("a number");
+            let moved = open.with(&[value]).expect("still a feeder");
             let moved: &FeederDesign = moved.downcast_ref().expect("a feeder");
             let mut linkage = design.linkage.clone();
             dimension.set(&mut linkage, value);

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use centrode_spec::{Design, Named};
+use centrode_spec::{Design, Named, NumberedDesign};
 
 use super::reach::Reach;
 use crate::optimise::{DesignProblem, NotSearched, Variable};
@@ -23,6 +23,7 @@ pub type GoalsOf = Box<dyn Fn(&dyn Design) -> Result<Vec<Goal>, f64> + Send + Sy
 /// that meets all of them ends the search.
 pub struct VaryProblem {
     design: Arc<dyn Design>,
+    numbered: NumberedDesign,
     goals_of: GoalsOf,
     variables: Vec<Variable>,
     start: Vec<f64>,
@@ -59,9 +60,10 @@ impl VaryProblem {
             ));
         }
         let (mut variables, mut start) = (Vec::new(), Vec::new());
-        for (key, [low, high]) in vary {
-            let numbered = design.numbered(key);
-            let numbered = numbered.map_err(|error| no(format!("vary: {}", error.message())))?;
+        let keys: Vec<&str> = vary.keys().map(String::as_str).collect();
+        let numbered = design.numbered(&keys);
+        let numbered = numbered.map_err(|error| no(format!("vary: {}", error.message())))?;
+        for (at, (key, [low, high])) in vary.iter().enumerate() {
             let is_angle = key
                 .split('[')
                 .next()
@@ -74,11 +76,12 @@ impl VaryProblem {
                 is_angle,
                 decimals: DECIMALS,
             });
-            let now = numbered.value().unwrap_or(0.5 * (low + high));
+            let now = numbered.value(at).unwrap_or(0.5 * (low + high));
             start.push(kept(now.clamp(*low, *high)));
         }
         Ok(Self {
             design,
+            numbered,
             goals_of,
             variables,
             start,
@@ -87,12 +90,11 @@ impl VaryProblem {
     }
 
     fn at(&self, point: &[f64]) -> Option<Arc<dyn Design>> {
-        let mut design = Arc::clone(&self.design);
-        for (variable, &value) in self.variables.iter().zip(point) {
-            let numbered = design.numbered(&variable.key).ok()?;
-            design = numbered.with(variable.written(value)).ok()?;
-        }
-        Some(design)
+        let values = self.variables.iter().zip(point);
+        let values: Vec<f64> = values
+            .map(|(variable, &value)| variable.written(value))
+            .collect();
+        self.numbered.with(&values).ok()
     }
 
     /// Goals at a point. A figure that cannot be determined is missed by far.

@@ -2,7 +2,7 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::Path;
 
-use crate::analysis::{Answer, Response as Found};
+use crate::analysis::{Answer, Sweep};
 use crate::family::Depth;
 
 use crate::cli::args::Response;
@@ -34,13 +34,13 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     let steps = f64::from(command.count - 1);
     let span = command.to - command.from;
     let value = |i: u16| command.from + span * f64::from(i) / steps;
-    let values: Vec<f64> = (0..command.count).map(value).collect();
+    let values: Vec<Vec<f64>> = (0..command.count).map(|i| vec![value(i)]).collect();
     let progress = Progress::new(1);
     progress.step("checking every value");
     let (family, design) = (file.family(), file.design());
     let response = match command.depth.as_deref().and_then(Depth::named) {
-        Some(depth) => family.response(design, &key, &values, depth),
-        None => family.response_until(design, &key, &values, |found| is_enough(command, found)),
+        Some(depth) => family.sweep(design, &[&key], &values, depth),
+        None => family.sweep_until(design, &[&key], &values, |found| is_enough(command, found)),
     };
     let response = response.map_err(|error| Failure::Usage(error.message()))?;
     let answers = response.answers();
@@ -50,7 +50,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     }
     if command.json {
         let json = serde_json::json!({
-            "key": response.key, "values": response.values, "answers": answers,
+            "key": key, "values": response.variants.concat(), "answers": answers,
             "refused": response.reports.iter().map(|report| report.as_ref().err()).collect::<Vec<_>>(),
         });
         serde_json::to_writer_pretty(&mut *out, &json).map_err(std::io::Error::from)?;
@@ -63,7 +63,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
 }
 
 /// Whether a response has the requested figures; default: goals, or a figure that changes.
-fn is_enough(command: &Response, response: &Found) -> bool {
+fn is_enough(command: &Response, response: &Sweep) -> bool {
     let answers = response.answers();
     match command.of.is_empty() {
         true => response.has_goals() || answers.iter().any(changes),
@@ -77,7 +77,7 @@ fn is_enough(command: &Response, response: &Found) -> bool {
 /// Requested figures; default: all goals, or, for a family without goals, the figures that change.
 fn requested<'a>(
     command: &Response,
-    response: &Found,
+    response: &Sweep,
     answers: &'a [Answer],
 ) -> Result<Vec<&'a Answer>, Failure> {
     if command.of.is_empty() {
@@ -122,10 +122,10 @@ fn changes(answer: &Answer) -> bool {
 }
 
 /// Writes a line per value, or a line per figure if the lines would be too long.
-fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> Result<(), Failure> {
+fn write_table(response: &Sweep, answers: &[&Answer], out: &mut impl Write) -> Result<(), Failure> {
     let given = |value: &f64| ((value * 1e6).round() / 1e6 + 0.0).to_string();
-    let values: Vec<String> = response.values.iter().map(given).collect();
-    let first = std::iter::once(response.key.clone()).chain(values.iter().cloned());
+    let values: Vec<String> = response.variants.iter().flatten().map(given).collect();
+    let first = std::iter::once(response.keys.concat()).chain(values.iter().cloned());
     let mut columns: Vec<Vec<String>> = vec![first.collect()];
     for answer in answers {
         let head = format!("{} {}", answer.name, answer.unit.shown());
@@ -157,7 +157,7 @@ fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> R
     }
     let known = response.reports.iter().flatten().count();
     if known > 1 && !answers.iter().any(|answer| changes(answer)) {
-        writeln!(out, "no figure changes with {}", response.key)?;
+        writeln!(out, "no figure changes with {}", response.keys.concat())?;
     }
     Ok(())
 }
@@ -173,13 +173,13 @@ fn width(columns: &[Vec<String>]) -> usize {
     columns.iter().map(|column| wide(column) + 2).sum()
 }
 
-fn write_csv(path: &Path, response: &Found, answers: &[Answer]) -> Result<(), Failure> {
-    let mut text = response.key.clone();
+fn write_csv(path: &Path, response: &Sweep, answers: &[Answer]) -> Result<(), Failure> {
+    let mut text = response.keys.concat();
     for answer in answers {
         let _ = write!(text, ",{}", answer.name);
     }
     text.push('\n');
-    for (at, value) in response.values.iter().enumerate() {
+    for (at, value) in response.variants.iter().flatten().enumerate() {
         let _ = write!(text, "{value}");
         for answer in answers {
             text.push(',');

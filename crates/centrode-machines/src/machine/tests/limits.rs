@@ -102,7 +102,7 @@ fn a_search_moves_numbers_of_the_machine_alone() {
     let known = "bodies.crank.points.A[0]";
     let design = read(&format!("{LEG}\n{goal}[vary]\n\"{known}\" = [1, 2]\n"));
     assert!(design.check_vary().is_ok());
-    assert!(Design::numbered(&design, known).is_ok());
+    assert!(Design::numbered(&design, &[known]).is_ok());
 }
 
 /// A machine of so many bodies: of their own, of a dyad each two, and copies of one body in so many pieces each.

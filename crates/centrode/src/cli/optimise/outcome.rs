@@ -45,8 +45,8 @@ impl<'a> Outcome<'a> {
         let start = problem.start().unwrap_or_else(|| best.to_vec());
         let moved = problem.variables().iter().zip(start.iter().zip(best));
         let parameters = moved.map(|(variable, (&start, &after))| {
-            let written = design.numbered(&variable.key).ok();
-            let written = written.and_then(|numbered| numbered.value());
+            let written = design.numbered(&[&variable.key]).ok();
+            let written = written.and_then(|numbered| numbered.value(0));
             let [from, to] = [start, after].map(|value| variable.written(value));
             let [low, high] = variable.bounds.map(|value| variable.written(value));
             let before = written.unwrap_or(from);

@@ -1,4 +1,4 @@
-use centrode_analysis::{Answer, Response};
+use centrode_analysis::{Answer, Sweep};
 use centrode_spec::{DesignError, DesignSpec as _};
 
 use super::*;
@@ -8,9 +8,10 @@ fn template(word: &str) -> OpenDesign {
     FAMILIES.read(text.as_bytes()).expect("a design")
 }
 
-fn response(word: &str, key: &str, values: &[f64], depth: Depth) -> Result<Response, DesignError> {
+fn response(word: &str, key: &str, values: &[f64], depth: Depth) -> Result<Sweep, DesignError> {
     let file = template(word);
-    file.family().response(file.design(), key, values, depth)
+    let variants: Vec<Vec<f64>> = values.iter().map(|&value| vec![value]).collect();
+    file.family().sweep(file.design(), &[key], &variants, depth)
 }
 
 fn height(radius: f64) -> f64 {
