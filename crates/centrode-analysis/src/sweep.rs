@@ -79,7 +79,7 @@ impl Sweep {
         let reports = || self.reports.iter().enumerate();
         for (at, report) in reports() {
             for goal in report.iter().flat_map(|report| &report.goals) {
-                *answers.figure(&goal.name, goal.unit, at, self.reports.len()) = goal.value;
+                *answers.figure(goal.name.clone(), goal.unit, at, self.reports.len()) = goal.value;
             }
         }
         for (at, report) in reports() {
@@ -87,7 +87,7 @@ impl Sweep {
             for (name, value) in &report.values {
                 let unit = report.unit(name).unwrap_or(Unit::Number);
                 let name = Cow::Borrowed(*name);
-                let figure = answers.figure(&name, unit, at, self.reports.len());
+                let figure = answers.figure(name, unit, at, self.reports.len());
                 figure.get_or_insert(*value);
             }
         }
@@ -106,15 +106,15 @@ impl Answers {
     /// Place of a figure of one of `count` variants.
     fn figure(
         &mut self,
-        name: &Cow<'static, str>,
+        name: Cow<'static, str>,
         unit: Unit,
         at: usize,
         count: usize,
     ) -> &mut Option<f64> {
-        let place = self.places.get(name).copied().unwrap_or_else(|| {
+        let place = self.places.get(&name).copied().unwrap_or_else(|| {
             self.places.insert(name.clone(), self.found.len());
             self.found.push(Answer {
-                name: name.clone(),
+                name,
                 unit,
                 figures: vec![None; count],
             });
