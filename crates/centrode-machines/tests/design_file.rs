@@ -485,7 +485,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         (
             "name = \"pair\"",
             "depth = 10",
-            "depth: unknown key; known are name, title, mean_ratio, tooth_count, center_distance, pitch, tool, teeth, driver, driven, housing, cut, drawing; elsewhere there is driver.keyway.depth, driven.keyway.depth",
+            "depth: unknown key; known are name, title, mean_ratio, tooth_count, center_distance, pitch, tool, teeth, driver, driven, housing, cut, drawing, goals, vary; elsewhere there is driver.keyway.depth, driven.keyway.depth",
         ),
         (
             "eccentricity = 0.25",

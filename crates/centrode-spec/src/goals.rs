@@ -16,7 +16,7 @@ pub type Named<T> = IndexMap<String, T>;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FigureGoalSpec {
-    /// Figure by its key in the check: `ratio_max`, `contact_ratio_min`; `centrode check --figures` lists the keys.
+    /// Figure by its key in the check: `ratio_max`, `contact_ratio_mean`; `centrode check --figures` lists the keys.
     pub figure: String,
     /// Goal in a few words, for reports.
     #[serde(default, skip_serializing_if = "String::is_empty")]

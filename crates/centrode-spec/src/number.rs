@@ -108,6 +108,9 @@ impl NumberedDesign {
             })
         };
         let no_number = || self.error(key, DesignFault::WrongType("is not a number".into()));
+        if key == "family" {
+            return Err(no_number());
+        }
         let steps = steps(key).ok_or_else(unknown)?;
         let mut root = self.root.clone();
         let is_whole = match place(&mut root, &steps).ok_or_else(unknown)? {

@@ -88,7 +88,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "on = \"frame.O\"",
             "on = \"wheel.W\"",
-            "bodies.crank.on: there is no body \"wheel\"; there are crank, frame,",
+            "bodies.crank.on: there is no body \"wheel\"; there are frame, crank,",
         ),
         (
             "on = \"frame.O\"",
