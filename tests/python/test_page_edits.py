@@ -208,12 +208,6 @@ def test_goals_follow_the_search(arms):
     assert page.locator("#search-take").is_hidden()
 
 
-def test_optimising_is_offered_only_where_there_are_goals(points):
-    page, _ = points
-    expect(page.locator("#optimise")).to_be_disabled()
-    expect(page.locator("#optimise")).to_have_attribute("title", re.compile("no goals"))
-
-
 def test_an_answer_asked_for_twice_is_drawn_once(browser, tmp_path):
     with opened(browser, tmp_path, FEEDER) as (page, _):
         page.locator("#response").click()

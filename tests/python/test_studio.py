@@ -280,12 +280,12 @@ def test_what_is_no_question_starts_nothing(served, path, body, status):
     ("change", "reason"),
     [
         ({"text": "family ="}, ""),
-        ({"text": SHAFT}, "family"),
+        ({"text": SHAFT}, "the design has no goals"),
         ({"method": "luck"}, 'unknown method "luck"'),
         ({"evaluations": 0}, "a search needs at least 1 evaluation"),
         ({"method": "guided", "evaluations": 0}, "a search needs at least 1 evaluation"),
     ],
-    ids=["no design", "a family that is not searched", "unknown method", "no evaluation", "no evaluation, guided"],
+    ids=["no design", "no goals", "unknown method", "no evaluation", "no evaluation, guided"],
 )
 def test_a_search_that_cannot_begin_says_why(served, change, reason):
     status, answer = served.json("POST", "search", {**SEARCH, **change})

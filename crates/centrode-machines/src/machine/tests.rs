@@ -253,7 +253,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "from = [\"P\", \"B\"]",
             "from = [\"P\", \"X\"]",
-            "bodies.thigh.corners.D: body \"thigh\" has no point \"X\"; it has B, P",
+            "bodies.thigh.corners.D: body \"thigh\" has no point \"X\"; it has P, B",
         ),
         (
             "points = { A = [15, 0] }",

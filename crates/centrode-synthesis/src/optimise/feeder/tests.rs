@@ -173,4 +173,15 @@ fn bounds_that_need_no_widening_are_not_widened() {
         Widened::search(&design),
         Err(NotWidened::NoUse { .. })
     ));
+    // No linkage within these bounds has a feed stroke fifty times as long as its return.
+    let mut slow = published();
+    slow.goals.transmission_angle = 12_f64.to_radians();
+    slow.goals.quick_return = 50.0;
+    let refused = Widened::search(&slow)
+        .expect_err("nothing to widen")
+        .to_string();
+    assert!(
+        refused.contains("crank angle of the feed stroke"),
+        "{refused}"
+    );
 }

@@ -1,11 +1,19 @@
+use std::ops::ControlFlow;
+
 use centrode_geometry::Point;
 use centrode_kinematics::linkage::{FourBar, Grashof, SixBar};
 use centrode_machines::feeder::{BoundsSpec, Dimension, FeederDesign};
 
-use centrode_analysis::Attainable;
+use centrode_analysis::{Attainable, Goal};
+use centrode_optimise::{Method, Settings, minimise};
+
+use super::FeederProblem;
+use crate::optimise::DesignProblem as _;
 
 /// Steps per millimetre to which bounds and lengths are rounded.
 const STEPS: f64 = 1e3;
+/// Names of the goals that lengths and pivot alone can meet.
+const OF_SIX_BAR: [&str; 3] = ["swing", "transmission-angle", "quick-return"];
 /// Maximum number of steps by which rounded bounds are moved outwards again.
 const MOST: u32 = 10;
 
@@ -20,7 +28,7 @@ pub struct Widened {
 }
 
 /// Reason why the bounds are not widened.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotWidened {
     /// The bounds contain lengths with the required angle.
@@ -32,6 +40,16 @@ pub enum NotWidened {
         attainable: f64,
         /// Required angle, rad.
         required: f64,
+    },
+    /// The bounds contain lengths with the required angle, but no lengths were found that meet all goals.
+    #[error(
+        "the bounds already allow lengths with a minimum transmission angle of {:.4} deg: wider ones are not searched. {why}", .attainable.to_degrees()
+    )]
+    OtherGoals {
+        /// Largest minimum transmission angle within the bounds, rad.
+        attainable: f64,
+        /// The goals that prevent each other, in a sentence.
+        why: String,
     },
     /// Not even bounds widened by 90 % give the required angle.
     #[error("even bounds widened by 90 % contain no crank-rocker with a minimum transmission angle of {:.4} deg", .required.to_degrees())]
@@ -55,14 +73,16 @@ impl Widened {
     pub fn search(design: &FeederDesign) -> Result<Self, NotWidened> {
         let goals = &design.goals;
         let required = goals.transmission_angle;
-        let none = NotWidened::NoUse { required };
-        let found = Attainable::search(design).ok_or(none)?;
+        let none = || NotWidened::NoUse { required };
+        let found = Attainable::search(design).ok_or_else(none)?;
         let attainable = found.transmission_angle;
-        let needless = NotWidened::Needless {
-            attainable,
-            required,
-        };
-        let share = found.widening.ok_or(needless)?;
+        let share = found.widening.ok_or_else(|| match contradictions(design) {
+            Some(why) => NotWidened::OtherGoals { attainable, why },
+            None => NotWidened::Needless {
+                attainable,
+                required,
+            },
+        })?;
         let mut widened = design.clone();
         for more in 0..MOST {
             let bounds = outwards(&design.bounds, share, f64::from(more) / STEPS);
@@ -90,7 +110,30 @@ impl Widened {
                 design: widened,
             });
         }
-        Err(none)
+        Err(none())
+    }
+}
+
+/// The goals that no lengths within the bounds meet, alone or in pairs, in a sentence; `None` if some lengths meet all.
+fn contradictions(design: &FeederDesign) -> Option<String> {
+    let mut free = design.clone();
+    // A widened design also has a new pivot.
+    free.optimise.free_pivot = true;
+    free.optimise.pivot_weight = 0.0;
+    let problem = FeederProblem::new(&free);
+    let settings = Settings {
+        method: Method::DifferentialEvolution,
+        target: problem.target(),
+        ..Settings::default()
+    };
+    let (search, _) = minimise(&problem, settings, &mut |_| ControlFlow::Continue(())).ok()?;
+    let goals = problem.goals(&search.best().point).unwrap_or_default();
+    let is_missed = |goal: &Goal| OF_SIX_BAR.contains(&&*goal.name) && goal.met() == Some(false);
+    let is_met = !goals.is_empty() && !goals.iter().any(is_missed);
+    if is_met {
+        None
+    } else {
+        problem.reach.contradictions()
     }
 }
 
