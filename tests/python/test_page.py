@@ -249,7 +249,7 @@ def searched(page):
     page.locator("#search-method").select_option("de")
     page.locator("#search-evaluations").fill("100000000")
     page.locator("#search-start").click()
-    expect(status).to_contain_text(re.compile("goals (missed by|reached)"))
+    expect(status).to_contain_text(re.compile("total miss|goals reached"))
     expect(page.locator("#form")).to_have_attribute("inert", "")
     page.locator("#search-stop").click()
     expect(status).to_contain_text("stopped", timeout=20_000)

@@ -73,7 +73,7 @@ impl OverPins {
 }
 
 impl GearPair {
-    /// Pins of a member's usual diameter in teeth of the maximum and the minimum thickness that [`Self::thickness_deviations`]
+    /// Pins of a member's usual diameter in teeth of the maximum and the minimum thickness that [`PlannedPair::thickness_deviations`](crate::PlannedPair::thickness_deviations)
     /// allow. `None` if the pair has no thickness deviations.
     ///
     /// A deviation E along the pitch curve moves each flank by `E cos(alpha) / 2` along its normal, because the flanks of an
