@@ -110,6 +110,7 @@ effector_length = 200
 transmission_angle_deg = @angle
 [optimise]
 free_pivot = true
+pivot_weight_deg = 0.01
 [figure_goals.rate]
 figure = "feed_rate"
 minimum = 50
