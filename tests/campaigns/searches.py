@@ -95,9 +95,9 @@ minimum = @angle
 "dyads.four-bar.lengths[0]" = [100, 180]
 """
 DESIGNS = Path(__file__).parents[1] / "designs"
-ARMS = (DESIGNS / "three-arm-2021.toml").read_text(encoding="utf-8")
-ARMS = ARMS.replace("radius = [21,", "radius = [@r1,").replace("bend_deg = -53", "bend_deg = @bend")
-ARMS = ARMS.replace("tip_distance = 145", "tip_distance = @tip")
+ARMS = (DESIGNS / "three-arm-all-goals.toml").read_text(encoding="utf-8")
+ARMS = ARMS.replace("radius = [32.96,", "radius = [@r1,").replace("bend_deg = -50.861", "bend_deg = @bend")
+ARMS = ARMS.replace("tip_distance = 146.04", "tip_distance = @tip")
 FEEDER = """family = "feeder"
 [linkage]
 crank = @crank
@@ -133,7 +133,7 @@ FAMILIES = {
         {"crank": (20, 80), "coupler": (100, 180), "low": (30, 70), "angle": (10, 40)},
         2000,
     ),
-    "three-arm": Family(ARMS, {"r1": (18, 26), "bend": (-60, -45), "tip": (130, 160)}, 400),
+    "three-arm": Family(ARMS, {"r1": (30, 36), "bend": (-53, -49), "tip": (142, 150)}, 600),
     "feeder": Family(
         FEEDER,
         {"crank": (59, 70), "coupler": (105, 150), "rocker": (98, 130), "angle": (5, 20)},
