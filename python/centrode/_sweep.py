@@ -11,7 +11,6 @@ from ._error import DesignError, Error
 
 Figures: TypeAlias = dict[str, float]
 Columns: TypeAlias = dict[str, NDArray[Any]]
-Depth: TypeAlias = Literal["motion", "made", "whole"]
 Pool: TypeAlias = Executor | Callable[[], Executor] | None
 Progress: TypeAlias = Callable[[int, int], object] | None
 Values: TypeAlias = dict[str, NDArray[np.float64]]
@@ -43,7 +42,7 @@ def sweep(
     designs: str | Mechanism,
     *,
     over: Mapping[str, ArrayLike],
-    depth: Depth | None = None,
+    depth: Literal["motion", "made", "whole"] | None = None,
     figures: Iterable[str] | None = None,
     inputs: int | None = None,
     executor: Pool = None,
@@ -57,7 +56,7 @@ def sweep(
     designs: Iterable[str | Mechanism] | str | Mechanism,
     *,
     over: Mapping[str, ArrayLike] | None = None,
-    depth: Depth | None = None,
+    depth: Literal["motion", "made", "whole"] | None = None,
     figures: Iterable[str] | None = None,
     inputs: int | None = None,
     executor: Pool = None,
@@ -140,7 +139,7 @@ def _text(number: int, design: str | Mechanism) -> str:
 def _variants(
     design: str | Mechanism,
     over: Mapping[str, ArrayLike],
-    depth: Depth | None,
+    depth: Literal["motion", "made", "whole"] | None,
     figures: Iterable[str] | None,
     inputs: int | None,
     spread: "_Spread",
@@ -197,7 +196,7 @@ def _of_arms(part: tuple[str, Values, int]) -> Columns:
     return ThreeArm.from_toml(text).sweep(columns, inputs=inputs)
 
 
-def _of_any(part: tuple[str, Values, Depth]) -> tuple[Columns, list[str | None]]:
+def _of_any(part: tuple[str, Values, Literal["motion", "made", "whole"]]) -> tuple[Columns, list[str | None]]:
     """The figures of some variants in this process, and the reasons why there are none."""
     text, columns, depth = part
     return _sweep(text.encode(), columns, depth)
