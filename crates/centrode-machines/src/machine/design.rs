@@ -257,7 +257,7 @@ impl MachineDesign {
         let goals = self.goals.iter();
         goals::check_contradictions(
             "goals",
-            goals.map(|(name, goal)| (&**name, goal.words(), goal.range())),
+            goals.map(|(name, goal)| (&**name, goal.subject(), goal.range())),
         )?;
         goals::check_bounds(&self.vary)?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))?;

@@ -92,6 +92,21 @@ impl MachineGoalSpec {
         }
     }
 
+    /// Text of the figure with everything that its value depends on: goals with equal texts are for one value.
+    pub(in crate::machine) fn subject(&self) -> String {
+        let within = match self.within[..] {
+            [from, to] => {
+                let [from, to] = [from, to].map(degrees::rounded);
+                format!(" within {from} to {to} deg")
+            }
+            _ => String::new(),
+        };
+        let uniform = self
+            .uniform
+            .map(|[first, last]| format!(" from {first} to {last}"));
+        self.words() + &within + &uniform.unwrap_or_default()
+    }
+
     /// Required figures as the file gives them.
     #[must_use]
     pub fn range(&self) -> RequiredRange {

@@ -105,6 +105,24 @@ fn a_search_moves_numbers_of_the_machine_alone() {
     assert!(Design::numbered(&design, &[known]).is_ok());
 }
 
+#[test]
+fn only_goals_for_one_value_contradict_each_other() {
+    let goals = |first: &str, second: &str| {
+        let goal = |name: &str, within: &str, limit: &str| {
+            format!(
+                "[goals.{name}]\nfigure = \"crank.A.x\"\nover = \"maximum\"\nwithin_deg = {within}\n{limit}\n"
+            )
+        };
+        let goals = goal("high", first, "minimum = 9") + &goal("low", second, "maximum = 5");
+        MachineDesign::from_toml(&format!("{LEG}\n{goals}"))
+    };
+    assert!(goals("[0, 90]", "[90, 180]").is_ok());
+    let error = goals("[0, 90]", "[0, 90]").expect_err("a contradiction");
+    assert_eq!(error.key, "goals.low");
+    let words = "contradicts goals.high: maximum crank.A.x within 0 to 90 deg cannot be at least 9 and at most 5";
+    assert!(error.message().contains(words), "{}", error.message());
+}
+
 /// A machine of so many bodies: of their own, of a dyad each two, and copies of one body in so many pieces each.
 fn of_bodies(own: usize, dyads: usize, copies: &[u32]) -> String {
     let mut text = String::from("family = \"machine\"\nname = \"m\"\n[frame.points]\nO = [0, 0]\n");
