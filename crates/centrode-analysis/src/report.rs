@@ -168,6 +168,26 @@ impl Table {
         }
     }
 
+    /// Tables of figures with their values, one per unit, in the order of the figures.
+    #[must_use]
+    pub fn of_figures<const N: usize>(
+        columns: [&str; N],
+        figures: impl IntoIterator<Item = (Unit, String, Vec<f64>)>,
+    ) -> Vec<Self> {
+        let mut tables: Vec<Self> = Vec::new();
+        for (unit, name, values) in figures {
+            match tables.iter_mut().find(|table| table.unit == unit) {
+                Some(table) => table.rows.push((name, values)),
+                None => tables.push(
+                    Self::new("figures", "Figure", unit)
+                        .columns(columns)
+                        .rows(vec![(name, values)]),
+                ),
+            }
+        }
+        tables
+    }
+
     /// With headings of columns.
     #[must_use]
     pub fn columns<C: Into<String>>(self, headings: impl IntoIterator<Item = C>) -> Self {

@@ -1,6 +1,6 @@
 //! Goals for figures of the check.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode_analysis::{FigureGroup, Goal, Report, Table};
 use centrode_spec::{Design, FigureGoalSpec, MechanismError, Named};
@@ -32,32 +32,30 @@ pub(crate) fn check_names(
 
 /// The figures of a report that goals can name, one table per unit, in the order of the report.
 pub(crate) fn figures(report: &Report) -> Vec<Table> {
-    let mut tables: Vec<Table> = Vec::new();
-    for row in report.groups.iter().flat_map(|group| group.rows) {
-        for key in row.keys {
-            let Some(&value) = report.values.get(key) else {
-                continue;
-            };
-            let row_of = ((*key).to_owned(), vec![value]);
-            match tables.iter_mut().find(|table| table.unit == row.unit) {
-                Some(table) => table.rows.push(row_of),
-                None => tables.push(
-                    Table::new("figures", "Figure", row.unit)
-                        .columns(["value"])
-                        .rows(vec![row_of]),
-                ),
-            }
-        }
-    }
-    tables
+    let rows = report.groups.iter().flat_map(|group| group.rows);
+    let figures = rows.flat_map(|row| row.keys.iter().map(|key| (row.unit, *key)));
+    let known = figures.filter_map(|(unit, key)| {
+        let value = *report.values.get(key)?;
+        Some((unit, key.to_owned(), vec![value]))
+    });
+    Table::of_figures(["value"], known)
+}
+
+/// Whether all goals have figures.
+fn are_known(goals: &[Goal]) -> bool {
+    goals.iter().all(|goal| goal.value.is_some())
 }
 
 /// Report of the smallest depth at which all goals of a mechanism have figures.
 pub(crate) fn check_goals(mechanism: &dyn Mechanism) -> Report {
-    let is_known = |report: &Report| report.goals.iter().all(|goal| goal.value.is_some());
-    let reports = Depth::ALL.into_iter().map(|depth| mechanism.report(depth));
-    let mut reports = reports.skip_while(|report| !is_known(report));
-    reports.next().unwrap_or_else(|| mechanism.check())
+    let mut report = Report::default();
+    for depth in Depth::ALL {
+        report = mechanism.report(depth);
+        if are_known(&report.goals) {
+            break;
+        }
+    }
+    report
 }
 
 /// Search problem of a design with goals for figures. Its points are checked as deep as these figures need.
@@ -70,15 +68,17 @@ pub(crate) fn problem<M: Resolved>(
         let report = M::report(design.downcast_ref().ok_or(f64::MAX)?, depth);
         Ok::<Vec<Goal>, f64>(report.map_err(|_| f64::MAX)?.goals)
     };
-    let all_known = |depth: &Depth| {
-        let goals = goals(design, *depth);
-        goals.is_ok_and(|goals| goals.iter().all(|goal| goal.value.is_some()))
-    };
-    // A design without goals has no problem.
-    let depths = Depth::ALL.into_iter().filter(|_| count > 0);
-    let depth = { depths }.find(all_known);
-    let depth = depth.unwrap_or(Depth::Whole);
-    let goals_of = Box::new(move |design: &dyn Design| goals(design, depth));
+    let start = design.clone();
+    let deep_enough = OnceLock::new();
+    let goals_of = Box::new(move |design: &dyn Design| {
+        let depth = deep_enough.get_or_init(|| {
+            let mut depths = Depth::ALL.into_iter();
+            let depth =
+                depths.find(|&depth| goals(&start, depth).is_ok_and(|goals| are_known(&goals)));
+            depth.unwrap_or(Depth::Whole)
+        });
+        goals(design, *depth)
+    });
     let design_of: Arc<dyn Design> = Arc::new(design.clone());
     let problem = VaryProblem::new(design_of, count, vary, goals_of)?;
     Ok(Box::new(problem))

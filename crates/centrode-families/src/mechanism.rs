@@ -26,7 +26,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Checks everything.
     fn check(&self) -> Report;
 
-    /// Checks the motion alone: goals, figures and findings without any tooth or cam, at least ten times faster.
+    /// Checks the motion alone: goals, figures and findings without any tooth or cam, about ten times faster.
     fn check_motion(&self) -> Report {
         self.check_made()
     }

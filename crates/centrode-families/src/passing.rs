@@ -16,22 +16,18 @@ pub(crate) struct PassingProblem {
 }
 
 impl PassingProblem {
-    /// Number of errors that the check finds at a point, and the misses of its goals as shares of their scales: near the goals
-    /// the sum falls.
-    fn errors(&self, point: &[f64]) -> f64 {
-        match (self.resolve)(self.inner.design(point).as_ref()) {
-            Ok(mechanism) => {
-                let report = mechanism.check();
-                let errors = report.findings.iter();
-                let errors = errors.filter(|f| f.severity == Severity::Error).count();
-                let missed = report
-                    .goals
-                    .iter()
-                    .filter_map(|goal| Some(goal.margin? / goal.scale));
-                errors as f64 + missed.map(|margin| (-margin).clamp(0.0, 1.0)).sum::<f64>()
-            }
-            Err(_) => 1.0,
-        }
+    /// Number of errors that the check finds at a point, and the sum of the misses of its goals as shares of their scales, each
+    /// one at most: near the goals it falls.
+    fn errors(&self, point: &[f64]) -> [f64; 2] {
+        let Ok(mechanism) = (self.resolve)(self.inner.design(point).as_ref()) else {
+            return [1.0, 0.0];
+        };
+        let report = mechanism.check();
+        let errors = report.findings.iter();
+        let errors = errors.filter(|f| f.severity == Severity::Error).count();
+        let goals = report.goals.iter();
+        let missed = goals.filter_map(|goal| Some((-goal.margin? / goal.scale).clamp(0.0, 1.0)));
+        [errors as f64, missed.sum()]
     }
 
     /// The check as a goal; `errors` is its number of errors.
@@ -54,7 +50,7 @@ impl Problem for PassingProblem {
         let mut evaluation = self.inner.evaluate(point);
         let good_enough = self.inner.target().unwrap_or(f64::INFINITY);
         if evaluation.feasible() && evaluation.objective <= good_enough {
-            evaluation.constraints.push(self.errors(point));
+            evaluation.constraints.push(self.errors(point).iter().sum());
         }
         evaluation
     }
@@ -76,7 +72,7 @@ impl DesignProblem for PassingProblem {
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>> {
         let mut goals = self.inner.goals(point)?;
         let is_met = goals.iter().all(|goal| goal.met() == Some(true));
-        let errors = if is_met { self.errors(point) } else { 0.0 };
+        let [errors, _] = if is_met { self.errors(point) } else { [0.0; 2] };
         if errors > 0.0 {
             goals.push(Self::goal(errors));
         }
@@ -88,7 +84,8 @@ impl DesignProblem for PassingProblem {
         let is_met = goals
             .iter()
             .all(|goal| goal.margin.is_none_or(|margin| margin >= 0.0));
-        goals.push(Self::goal(if is_met { self.errors(point) } else { 0.0 }));
+        let errors = if is_met { self.errors(point) } else { [0.0; 2] };
+        goals.push(Self::goal(errors.iter().sum()));
         Some(goals)
     }
 

@@ -1,6 +1,5 @@
 use std::collections::BTreeSet;
 
-use super::number::numbers_in;
 use super::{Design, rule::same};
 
 /// Numbers that a design gives, to mark figures of its check as given or found.
@@ -19,8 +18,8 @@ impl Given {
     pub fn new(design: &dyn Design) -> Self {
         Self {
             numbers: design
-                .to_toml()
-                .map_or(Vec::new(), |text| numbers_in(&text)),
+                .numbered(&[])
+                .map_or(Vec::new(), |numbered| numbered.all()),
             names: design.family().key_names(),
         }
     }

@@ -50,23 +50,15 @@ pub(super) fn written(design: &impl Serialize) -> Result<toml::Value, toml::ser:
 
 /// Every number of a design by its key, in the file's units; empty if the design cannot be written.
 pub fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
-    let mut found = Vec::new();
-    if let Ok(root) = written(design) {
-        numbers(&root, &mut Path::default(), &mut |key, number| {
-            found.push((key.to_owned(), number));
-        });
-    }
-    found
+    written(design).map_or(Vec::new(), |root| all_numbers(&root))
 }
 
-/// Every number of a design's text by its key; empty if it is no TOML.
-pub(super) fn numbers_in(text: &str) -> Vec<(String, f64)> {
+/// Every number in the content of a file by its key.
+fn all_numbers(root: &toml::Value) -> Vec<(String, f64)> {
     let mut found = Vec::new();
-    if let Ok(root) = toml::from_str(text) {
-        numbers(&root, &mut Path::default(), &mut |key, number| {
-            found.push((key.to_owned(), number));
-        });
-    }
+    numbers(root, &mut Path::default(), &mut |key, number| {
+        found.push((key.to_owned(), number));
+    });
     found
 }
 
@@ -148,6 +140,11 @@ impl NumberedDesign {
             key: key.to_owned(),
             ..DesignError::at_start(fault)
         }
+    }
+
+    /// Every number of the design by its key, in the file's units.
+    pub(super) fn all(&self) -> Vec<(String, f64)> {
+        all_numbers(&self.root)
     }
 
     /// A number as it is written, in the file's unit; zero if the file omits it.

@@ -98,23 +98,13 @@ pub fn machine_figures(composed: &Machine) -> Vec<Table> {
     };
     let count = 2 * figures.len();
     let found = maxima(count, all, one, |_, v| rounding(v), &ends(composed));
-    let mut tables: Vec<Table> = Vec::new();
-    for ((words, figure), found) in words.into_iter().zip(&figures).zip(found.chunks(2)) {
-        let unit = unit(&made, figure);
-        let row = (words, vec![-found[0].value, found[1].value]);
-        if !row.1.iter().all(|end| end.is_finite()) {
-            continue;
-        }
-        match tables.iter_mut().find(|table| table.unit == unit) {
-            Some(table) => table.rows.push(row),
-            None => tables.push(
-                Table::new("figures", "Figure", unit)
-                    .columns(["minimum", "maximum"])
-                    .rows(vec![row]),
-            ),
-        }
-    }
-    tables
+    let rows = words.into_iter().zip(&figures).zip(found.chunks(2));
+    let rows = rows.map(|((words, figure), found)| {
+        let ends = vec![-found[0].value, found[1].value];
+        (unit(&made, figure), words, ends)
+    });
+    let known = rows.filter(|(.., ends)| ends.iter().all(|end| end.is_finite()));
+    Table::of_figures(["minimum", "maximum"], known)
 }
 
 /// The value of a figure for a goal, and the input at which it occurs.

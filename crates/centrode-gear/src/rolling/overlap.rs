@@ -76,7 +76,7 @@ impl Rolling {
     }
 
     /// A point of the driven gear's curve with the gears at a pose.
-    fn beside(&self, pose: &Place, place: &Place) -> Point {
+    fn next_to(&self, pose: &Place, place: &Place) -> Point {
         let (sin, cos) = (place.driven - pose.driven).sin_cos();
         let radius = self.center_distance - place.radius;
         Point::new(self.center_distance - radius * cos, radius * sin)
@@ -84,7 +84,7 @@ impl Rolling {
 
     /// Depth of a point of the driven gear's curve within the driver's curve; negative outside.
     fn depth(&self, pose: &Place, place: &Place) -> f64 {
-        let point = self.beside(pose, place);
+        let point = self.next_to(pose, place);
         let radius = self.radius(pose.angle + point.y.atan2(point.x));
         radius - point.coords.norm()
     }
@@ -122,7 +122,7 @@ impl Rolling {
             let here = at(pose);
             let depth = |steps: i64| {
                 let place = at(pose + way * steps);
-                let point = self.beside(here, place);
+                let point = self.next_to(here, place);
                 let within = (place.driven - here.driven).abs() < PI;
                 within.then(|| radius(here.angle + point.y.atan2(point.x)) - point.coords.norm())
             };

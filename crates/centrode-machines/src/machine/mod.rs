@@ -232,26 +232,16 @@ impl Machine {
         let (part, point) = name.split_once('.').unwrap_or((name, ""));
         let part = self.original(part);
         let written = &self.written;
-        let mut at = 0;
-        let mut find = |position: Option<usize>, count: usize| {
-            let place = position.map(|position| at + position);
-            at += count;
-            place
-        };
-        let dyads = written.dyads.values().flat_map(|dyad| &dyad.bodies);
-        let places = [
-            find((part == design::FRAME).then_some(0), 1),
-            find(written.bodies.get_index_of(part), written.bodies.len()),
-            find(dyads.clone().position(|body| body == part), dyads.count()),
-            find(written.dyads.get_index_of(part), written.dyads.len()),
-            find(written.gears.get_index_of(part), written.gears.len()),
-            find(written.cams.get_index_of(part), written.cams.len()),
-            find(written.pairs.get_index_of(part), written.pairs.len()),
-            find(
-                written.obstacles.get_index_of(part),
-                written.obstacles.len(),
-            ),
-        ];
+        let names = written.bodies.keys();
+        let names = names.chain(written.dyads.values().flat_map(|dyad| &dyad.bodies));
+        let names = names
+            .chain(written.dyads.keys())
+            .chain(written.gears.keys());
+        let names = names.chain(written.cams.keys()).chain(written.pairs.keys());
+        let names = names.chain(written.obstacles.keys()).map(String::as_str);
+        let place = std::iter::once(design::FRAME)
+            .chain(names)
+            .position(|name| name == part);
         let points = match part {
             design::FRAME => written.frame.points.get_index_of(point),
             _ => written
@@ -259,7 +249,7 @@ impl Machine {
                 .get(part)
                 .and_then(|body| body.points.get_index_of(point)),
         };
-        [places.into_iter().flatten().next(), points].map(|place| place.unwrap_or(usize::MAX))
+        [place, points].map(|place| place.unwrap_or(usize::MAX))
     }
 
     /// The machine as a linkage.
